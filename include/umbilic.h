@@ -1,0 +1,940 @@
+/*
+ * umbilic: vertex normals of polygon meshes, on the caller's own memory.
+ *
+ * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals are then computed from positions as
+ * often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
+ * are never kept or copied whole.
+ *
+ * Every function that can fail returns a umb_status, 0 for success, and takes an optional umb_error that names the
+ * offending element. Outputs are written only on success. Structs of options and outputs start with their size and may
+ * be all zero; a program built against this header runs with any later library of the same UMB_ABI_VERSION.
+ *
+ * There is no global state: all functions may be called from any thread at any time, and a const handle may be used by
+ * many at once. Nothing is printed, no signal is touched, no thread outlives the call that started it. A host that sets
+ * the CPU to flush subnormal numbers to zero changes results below 1e-38 (float) and 1e-308 (double).
+ *
+ * This file is generated; see cbindgen.toml.
+ */
+
+#ifndef UMBILIC_H
+#define UMBILIC_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define UMB_VERSION_MAJOR 0
+#define UMB_VERSION_MINOR 1
+#define UMB_VERSION_PATCH 0
+/* Compare with umb_abi_version(). */
+#define UMB_ABI_VERSION 0
+
+#if defined(_WIN32) && !defined(UMB_STATIC)
+#define UMB_API __declspec(dllimport)
+#else
+#define UMB_API
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define UMB_NODISCARD __attribute__((warn_unused_result))
+#else
+#define UMB_NODISCARD
+#endif
+
+/* Structs with their size set and all else zero. */
+#ifdef __cplusplus
+#define UMB_INIT_(type) \
+  ([] { type value_{}; value_.struct_size = static_cast<uint32_t>(sizeof(type)); return value_; }())
+#else
+#define UMB_INIT_(type) {.struct_size = sizeof(type)}
+#endif
+#define UMB_ERROR_INIT UMB_INIT_(umb_error)
+#define UMB_TOPOLOGY_OPTIONS_INIT UMB_INIT_(umb_topology_options)
+#define UMB_TOPOLOGY_STATS_INIT UMB_INIT_(umb_topology_stats)
+#define UMB_NORMAL_OPTIONS_INIT UMB_INIT_(umb_normal_options)
+#define UMB_NORMAL_OUTPUTS_INIT UMB_INIT_(umb_normal_outputs)
+#define UMB_FACE_OPTIONS_INIT UMB_INIT_(umb_face_options)
+#define UMB_FACE_OUTPUTS_INIT UMB_INIT_(umb_face_outputs)
+
+/**
+ * `umb_error.element` where no element is to blame.
+ */
+#define UMB_NO_ELEMENT UINT64_MAX
+
+/**
+ * An edge at the vertex has only one face.
+ */
+#define UMB_VERTEX_BOUNDARY 1
+
+/**
+ * The faces at the vertex do not form a single fan.
+ */
+#define UMB_VERTEX_NON_MANIFOLD 2
+
+/**
+ * The two faces of an edge at the vertex run through it in the same direction.
+ */
+#define UMB_VERTEX_WINDING 4
+
+/**
+ * No face uses the vertex; its results are zero.
+ */
+#define UMB_VERTEX_ISOLATED 8
+
+/**
+ * The estimator had nothing to work with at the vertex, and a simpler one took its place.
+ */
+#define UMB_VERTEX_FALLBACK 16
+
+/**
+ * Nothing at all could be computed; the results are zero.
+ */
+#define UMB_VERTEX_DEGENERATE 32
+
+/**
+ * The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
+ * used from any number of threads at once.
+ */
+typedef struct umb_topology umb_topology;
+
+/**
+ * What a call came to: 0 is success, 1 to 99 a mistake of the caller, 100 to 199 the surroundings, 900 and above the
+ * library itself. Numbers are never reused.
+ */
+typedef int32_t umb_status;
+
+/**
+ * The integer type of an index array: `UMB_INDEX_U32`, `UMB_INDEX_I32` or `UMB_INDEX_U64`.
+ */
+typedef uint32_t umb_index;
+
+/**
+ * Faces, `#F` loops of vertex indices (counter-clockwise seen from outside), borrowed for the call.
+ *
+ * Without offsets, every face has `arity` corners. With offsets, face `f` has the indices from `offsets[f]` up to
+ * `offsets[f + 1]`: there are `face_count + 1` offsets, of the same integer type as the indices.
+ */
+typedef struct umb_faces {
+  /**
+   * The corners of all faces, one face after the other, packed and aligned.
+   */
+  const void *indices;
+  /**
+   * The number of indices.
+   */
+  size_t index_count;
+  /**
+   * Where each face starts, and the end of the last; null if all faces have `arity` corners.
+   */
+  const void *offsets;
+  /**
+   * The number of faces; without offsets it may be 0, and follows from `index_count`.
+   */
+  size_t face_count;
+  /**
+   * The integer type of indices and offsets.
+   */
+  umb_index index;
+  /**
+   * The corners of each face if `offsets` is null, 0 meaning 3; 0 if there are offsets.
+   */
+  uint32_t arity;
+} umb_faces;
+
+/**
+ * How a topology is built. All zero: the defaults.
+ */
+typedef struct umb_topology_options {
+  /**
+   * `sizeof(umb_topology_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_topology_options;
+
+/**
+ * What went wrong, in the caller's memory. Written only when a call fails; may be null wherever it is taken.
+ */
+typedef struct umb_error {
+  /**
+   * `sizeof(umb_error)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * The status that the call returned.
+   */
+  umb_status status;
+  /**
+   * The offending corner, face, vertex, byte or value, as the message says; `UMB_NO_ELEMENT` if there is none.
+   */
+  uint64_t element;
+  /**
+   * What, where, and what was expected: UTF-8 with a closing NUL.
+   */
+  char message[240];
+} umb_error;
+
+/**
+ * What a mesh is made of, and what is wrong with it.
+ */
+typedef struct umb_topology_stats {
+  /**
+   * `sizeof(umb_topology_stats)`, set by the caller; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Vertices.
+   */
+  uint64_t vertex_count;
+  /**
+   * Faces, ignored ones included.
+   */
+  uint64_t face_count;
+  /**
+   * Corners of the faces that are not ignored.
+   */
+  uint64_t corner_count;
+  /**
+   * Edges, each counted once however many faces it has.
+   */
+  uint64_t edge_count;
+  /**
+   * Edges with one face.
+   */
+  uint64_t boundary_edges;
+  /**
+   * Edges with more than two faces.
+   */
+  uint64_t non_manifold_edges;
+  /**
+   * Edges whose two faces run through them in the same direction.
+   */
+  uint64_t winding_edges;
+  /**
+   * Vertices without a face.
+   */
+  uint64_t isolated_vertices;
+  /**
+   * Vertices on an edge with one face.
+   */
+  uint64_t boundary_vertices;
+  /**
+   * Vertices whose faces do not form a single fan.
+   */
+  uint64_t non_manifold_vertices;
+  /**
+   * Faces that name a vertex twice in a row, or that have fewer than three corners.
+   */
+  uint64_t degenerate_faces;
+  /**
+   * Degenerate faces of which fewer than three corners remain: they are ignored.
+   */
+  uint64_t ignored_faces;
+  /**
+   * Faces that run through the same vertices in the same order as an earlier one. They count like any other.
+   */
+  uint64_t duplicate_faces;
+  /**
+   * Pieces that no edge connects, isolated vertices not counted.
+   */
+  uint64_t component_count;
+  /**
+   * Closed loops of boundary edges.
+   */
+  uint64_t boundary_loops;
+  /**
+   * Vertices that have faces, minus edges, plus faces that are not ignored.
+   */
+  int64_t euler_characteristic;
+  /**
+   * The largest number of edges at a vertex.
+   */
+  uint64_t max_valence;
+  /**
+   * Heap memory that the handle holds, in bytes.
+   */
+  uint64_t bytes;
+} umb_topology_stats;
+
+/**
+ * One fan of a vertex: a run of faces in which each shares an edge with the next.
+ */
+typedef struct umb_fan {
+  /**
+   * The neighbours in counter-clockwise order; the handle's memory, valid until it is destroyed.
+   */
+  const uint32_t *neighbours;
+  /**
+   * `corner_count` in a closed fan, one more in an open one.
+   */
+  size_t neighbour_count;
+  /**
+   * The number of faces in the fan.
+   */
+  size_t corner_count;
+  /**
+   * 1 if the last face meets the first, else 0.
+   */
+  uint32_t closed;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_fan;
+
+/**
+ * The scalar type of an array: `UMB_SCALAR_F32` or `UMB_SCALAR_F64`.
+ */
+typedef uint32_t umb_scalar;
+
+/**
+ * Vertex positions, `#V × 3`, borrowed for the call.
+ *
+ * The coordinates of a vertex lie next to each other; vertices lie `stride` bytes apart, so the points of OpenMesh,
+ * CGAL or MeshLab, and interleaved vertex buffers, are read where they are.
+ */
+typedef struct umb_points {
+  /**
+   * The first coordinate of the first vertex, aligned to its scalar.
+   */
+  const void *data;
+  /**
+   * The number of vertices.
+   */
+  size_t count;
+  /**
+   * Bytes from one vertex to the next, a multiple of the scalar's size; 0 if packed.
+   */
+  size_t stride;
+  /**
+   * The scalar type.
+   */
+  umb_scalar scalar;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_points;
+
+/**
+ * How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
+ *
+ * N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
+ * polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
+ */
+typedef uint32_t umb_weight;
+
+/**
+ * The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
+ */
+typedef uint32_t umb_simd;
+
+/**
+ * Called on the calling thread with the fraction done, 0 to 1; non-zero cancels. It must return (no `longjmp`, no
+ * exception).
+ */
+typedef int (*umb_progress)(void *user,
+                            double fraction);
+
+/**
+ * How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress.
+ */
+typedef struct umb_run {
+  /**
+   * The number of threads; 0 for as many as pay, 1 for the calling thread alone. Never changes a bit of a result.
+   */
+  uint32_t threads;
+  /**
+   * The widest vectors to use.
+   */
+  umb_simd simd;
+  /**
+   * The vertices to compute; null for all. Outputs stay indexed by vertex; those of other vertices are left alone.
+   * The results are the same bits as those of a call for all vertices.
+   */
+  const uint32_t *vertices;
+  /**
+   * The number of `vertices`.
+   */
+  size_t vertex_count;
+  /**
+   * Called now and then; may be null.
+   */
+  umb_progress progress;
+  /**
+   * Handed to `progress`.
+   */
+  void *user;
+} umb_run;
+
+/**
+ * Which vertex normals to compute, and how. All zero: N_CM at all vertices.
+ */
+typedef struct umb_normal_options {
+  /**
+   * `sizeof(umb_normal_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * The weight.
+   */
+  umb_weight weight;
+  /**
+   * How to run.
+   */
+  struct umb_run run;
+} umb_normal_options;
+
+/**
+ * An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
+ *
+ * It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
+ * be interleaved with the positions; its elements must not overlap them.
+ */
+typedef struct umb_output {
+  /**
+   * The first scalar of the first element, aligned.
+   */
+  void *data;
+  /**
+   * Bytes from one element to the next, a multiple of the scalar's size; 0 if packed.
+   */
+  size_t stride;
+  /**
+   * The scalar type.
+   */
+  umb_scalar scalar;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_output;
+
+/**
+ * An array of bytes to write, in the caller's memory: `UMB_VERTEX_` bits. Null `data`: not wanted.
+ */
+typedef struct umb_status_output {
+  /**
+   * The first byte.
+   */
+  uint8_t *data;
+  /**
+   * Bytes from one element to the next; 0 if packed.
+   */
+  size_t stride;
+} umb_status_output;
+
+/**
+ * Where vertex normals go; any of them may be left out.
+ */
+typedef struct umb_normal_outputs {
+  /**
+   * `sizeof(umb_normal_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Unit normals, `#V x 3`; (0, 0, 0) where the status says isolated or degenerate.
+   */
+  struct umb_output normal;
+  /**
+   * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
+   * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Beyond the
+   * scalar's range its largest value stands.
+   */
+  struct umb_output sum;
+  /**
+   * `UMB_VERTEX_` bits, `#V`.
+   */
+  struct umb_status_output status;
+} umb_normal_outputs;
+
+/**
+ * How face normals are computed. All zero: the defaults.
+ */
+typedef struct umb_face_options {
+  /**
+   * `sizeof(umb_face_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_face_options;
+
+/**
+ * Where face normals go; any of them may be left out.
+ */
+typedef struct umb_face_outputs {
+  /**
+   * `sizeof(umb_face_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Unit normals, `#F x 3`; (0, 0, 0) where a face has none.
+   */
+  struct umb_output normal;
+  /**
+   * Area vectors, `#F x 3`: along the normal, as long as the area is large (length^2).
+   */
+  struct umb_output area_vector;
+  /**
+   * 0 or `UMB_VERTEX_DEGENERATE`, `#F`.
+   */
+  struct umb_status_output status;
+} umb_face_outputs;
+
+/**
+ * Success.
+ */
+#define UMB_OK 0
+
+/**
+ * A required pointer is null.
+ */
+#define UMB_ERROR_NULL_POINTER 1
+
+/**
+ * A struct's `struct_size` is smaller than the struct's first version, or beyond 4096.
+ */
+#define UMB_ERROR_STRUCT_SIZE 2
+
+/**
+ * A field that this version of the library does not know, or a reserved one, is not zero.
+ */
+#define UMB_ERROR_UNKNOWN_FIELD 3
+
+/**
+ * A constant is none of those documented for its place.
+ */
+#define UMB_ERROR_UNKNOWN_CONSTANT 4
+
+/**
+ * A stride is smaller than an element, or no multiple of its scalar.
+ */
+#define UMB_ERROR_STRIDE 5
+
+/**
+ * An array does not start at a multiple of its scalar's size.
+ */
+#define UMB_ERROR_MISALIGNED 6
+
+/**
+ * A count does not fit the others, or its bytes exceed the address space.
+ */
+#define UMB_ERROR_SIZE 7
+
+/**
+ * Face offsets do not run upwards from 0 to the number of indices.
+ */
+#define UMB_ERROR_OFFSETS 8
+
+/**
+ * A vertex index is negative or not below the number of vertices.
+ */
+#define UMB_ERROR_INDEX_OUT_OF_RANGE 9
+
+/**
+ * A coordinate is NaN or infinite.
+ */
+#define UMB_ERROR_NON_FINITE 10
+
+/**
+ * More vertices or corners than 32-bit tables can hold.
+ */
+#define UMB_ERROR_TOO_LARGE 11
+
+/**
+ * No memory for a buffer.
+ */
+#define UMB_ERROR_OUT_OF_MEMORY 100
+
+/**
+ * The progress callback asked to stop.
+ */
+#define UMB_ERROR_CANCELLED 101
+
+/**
+ * A defect of the library, caught before it could reach the caller.
+ */
+#define UMB_ERROR_INTERNAL 900
+
+/**
+ * 32-bit floating point; the default.
+ */
+#define UMB_SCALAR_F32 0
+
+/**
+ * 64-bit floating point.
+ */
+#define UMB_SCALAR_F64 1
+
+/**
+ * Unsigned, 32 bits; the default.
+ */
+#define UMB_INDEX_U32 0
+
+/**
+ * Signed, 32 bits; negative indices are refused.
+ */
+#define UMB_INDEX_I32 1
+
+/**
+ * Unsigned, 64 bits.
+ */
+#define UMB_INDEX_U64 2
+
+/**
+ * The widest that the CPU has; the default.
+ */
+#define UMB_SIMD_BEST 0
+
+/**
+ * None: plain code that runs on any CPU.
+ */
+#define UMB_SIMD_PORTABLE 1
+
+/**
+ * At most SSE2.
+ */
+#define UMB_SIMD_SSE2 2
+
+/**
+ * At most AVX2.
+ */
+#define UMB_SIMD_AVX2 3
+
+/**
+ * At most AVX-512.
+ */
+#define UMB_SIMD_AVX512 4
+
+/**
+ * N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates,
+ * which combine edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / a. The default; the
+ * best one-ring average on irregular smooth meshes.
+ */
+#define UMB_WEIGHT_CONFORMAL 0
+
+/**
+ * 1 (Gouraud 1971, N_G).
+ */
+#define UMB_WEIGHT_UNIFORM 1
+
+/**
+ * theta_i (Thuermer and Wuethrich 1998, N_T). Does not depend on how a flat face is cut up.
+ */
+#define UMB_WEIGHT_ANGLE 2
+
+/**
+ * A_i (N_M).
+ */
+#define UMB_WEIGHT_AREA 3
+
+/**
+ * |sin theta_i| / (a b) (Max 1999). Exact where the vertex and its neighbours lie on a sphere.
+ */
+#define UMB_WEIGHT_MAX 4
+
+/**
+ * A_i / g_i (N_C of Chen and Wu 2004 as the paper prints it).
+ */
+#define UMB_WEIGHT_CENTROID_AREA 5
+
+/**
+ * 1 / g_i^2 (N_C of Chen and Wu 2004 as the paper's tables use it).
+ */
+#define UMB_WEIGHT_CENTROID 6
+
+/**
+ * 1 / sqrt(a b) (Jin, Lewis and West 2005).
+ */
+#define UMB_WEIGHT_INVERSE_ROOT_EDGES 7
+
+/**
+ * |sin theta_i|
+ */
+#define UMB_WEIGHT_SINE 8
+
+/**
+ * theta_i a b
+ */
+#define UMB_WEIGHT_ANGLE_EDGES 9
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * A short English description of a status, for any number. Never null; static.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const char *umb_status_string(umb_status status);
+
+/**
+ * Builds the one-rings of a mesh.
+ *
+ * Faces are joined across an edge only where it has exactly two and they run through it in opposite directions; every
+ * other edge (one face, three or more, inconsistent winding) ends the fans on all its sides, and is counted. Faces that
+ * name a vertex twice in a row lose the repetition; faces of fewer than three corners are ignored. No mesh is refused for
+ * its shape.
+ *
+ * Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices. About 16 bytes a
+ * triangle are held, and 24 more while building.
+ *
+ * @param faces the faces; read only during the call
+ * @param vertex_count the number of vertices, at most 2^32 - 1; there may be at most 2^31 - 1 corners
+ * @param options may be null
+ * @param topology receives the handle; destroy it with `umb_topology_destroy`
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_MISALIGNED`, `_SIZE`,
+ * `_OFFSETS` (element: face), `_INDEX_OUT_OF_RANGE` (element: place in `indices`), `_TOO_LARGE`, `_OUT_OF_MEMORY`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_topology_create(const struct umb_faces *faces,
+                               size_t vertex_count,
+                               const struct umb_topology_options *options,
+                               struct umb_topology **topology,
+                               struct umb_error *error);
+
+/**
+ * Frees a topology; null is fine.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+void umb_topology_destroy(struct umb_topology *topology);
+
+/**
+ * The number of vertices; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_topology_vertex_count(const struct umb_topology *topology);
+
+/**
+ * The number of faces, ignored ones included; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_topology_face_count(const struct umb_topology *topology);
+
+/**
+ * The `UMB_VERTEX_` bits of each vertex that follow from the faces alone, `#V` bytes in the handle's memory; null for
+ * null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint8_t *umb_topology_flags(const struct umb_topology *topology);
+
+/**
+ * Counts elements, defects, components and boundary loops. Linear in the size of the mesh.
+ *
+ * @param topology the handle
+ * @param stats receives the counts; set its `struct_size` (or 0) before
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_OUT_OF_MEMORY`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_topology_get_stats(const struct umb_topology *topology,
+                                  struct umb_topology_stats *stats,
+                                  struct umb_error *error);
+
+/**
+ * The number of edges at a vertex.
+ *
+ * @param topology the handle
+ * @param vertex the vertex
+ * @param valence receives the number
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_topology_valence(const struct umb_topology *topology,
+                                size_t vertex,
+                                size_t *valence,
+                                struct umb_error *error);
+
+/**
+ * The number of fans of a vertex: 1 at a manifold vertex, 0 at an isolated one.
+ *
+ * @param topology the handle
+ * @param vertex the vertex
+ * @param fan_count receives the number
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_topology_fan_count(const struct umb_topology *topology,
+                                  size_t vertex,
+                                  size_t *fan_count,
+                                  struct umb_error *error);
+
+/**
+ * A fan of a vertex: its part of the vertex's ordered one-ring.
+ *
+ * @param topology the handle
+ * @param vertex the vertex
+ * @param index which of its fans, below `umb_topology_fan_count`
+ * @param fan receives the fan
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE` (a vertex that is none), `_SIZE` (an index that is no fan's).
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_topology_fan(const struct umb_topology *topology,
+                            size_t vertex,
+                            size_t index,
+                            struct umb_fan *fan,
+                            struct umb_error *error);
+
+/**
+ * Computes vertex normals over the one-rings of a topology.
+ *
+ * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
+ * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
+ * sums of all fans are added. Faces without area, edges without length and pairs of opposite faces drop out of a sum; if
+ * nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
+ * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
+ *
+ * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
+ * the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
+ * triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+ * bits for any number of threads, any vectors and any choice of vertices.
+ *
+ * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
+ *
+ * @param topology the handle
+ * @param points the positions of all its vertices; read only during the call
+ * @param options may be null
+ * @param outputs where results go; each has an element for every vertex. Written only if the call succeeds, or, after
+ * a cancel, in part
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`,
+ * `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`,
+ * `_CANCELLED`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_vertex_normals(const struct umb_topology *topology,
+                              const struct umb_points *points,
+                              const struct umb_normal_options *options,
+                              const struct umb_normal_outputs *outputs,
+                              struct umb_error *error);
+
+/**
+ * Computes vertex normals straight from faces, without a topology.
+ *
+ * For a mesh whose normals are wanted once. N_CM, and a subset of vertices, build a topology for the call; every other
+ * weight takes one pass over the faces, on the calling thread, in double precision. The sums then run in face order, so
+ * results agree with `umb_vertex_normals` to rounding, not to the bit; of the statuses only isolated, fallback and
+ * degenerate are told. Everything else is as there.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param options may be null
+ * @param outputs where results go, as in `umb_vertex_normals`
+ * @param error may be null
+ *
+ * Errors: as `umb_vertex_normals` and `umb_topology_create`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_vertex_normals_from_faces(const struct umb_faces *faces,
+                                         const struct umb_points *points,
+                                         const struct umb_normal_options *options,
+                                         const struct umb_normal_outputs *outputs,
+                                         struct umb_error *error);
+
+/**
+ * Computes face normals: unit vectors along each face's area vector, `1/2 sum (p_k - p_0) x (p_(k+1) - p_0)`, which is
+ * right for triangles, concave and non-planar polygons, collinear and repeated corners. A face whose area vector vanishes
+ * has the normal (0, 0, 0) and the status `UMB_VERTEX_DEGENERATE`. Double precision; same bits on any number of threads.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param options may be null
+ * @param outputs where results go; each has an element for every face
+ * @param error may be null
+ *
+ * Errors: as `umb_vertex_normals` and `umb_topology_create`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_face_normals(const struct umb_faces *faces,
+                            const struct umb_points *points,
+                            const struct umb_face_options *options,
+                            const struct umb_face_outputs *outputs,
+                            struct umb_error *error);
+
+/**
+ * The version of the library, `"0.1.0"`. Static.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const char *umb_version(void);
+
+/**
+ * The number of the binary interface, `UMB_ABI_VERSION` of the header it was built with: a program runs with any library
+ * that has the number of its header.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+uint32_t umb_abi_version(void);
+
+/**
+ * Name, version and the vectors that this CPU's calls use by default, in one line for logs. Static.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const char *umb_build_info(void);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* UMBILIC_H */

@@ -1,0 +1,111 @@
+//! The guard of every entry point, and versioned structs.
+
+use super::status::{Failure, UMB_OK, umb_error, umb_status};
+use crate::error::Error;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+thread_local! {
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs an entry point: no panic leaves it, nothing is printed, and a failure is reported to `error`.
+///
+/// # Safety
+/// `error` is null, or points to a `umb_error` of the size it claims.
+pub(super) unsafe fn guard(error: *mut umb_error, body: impl FnOnce() -> Result<(), Error>) -> umb_status {
+    silence_guarded_panics();
+    let outer = GUARDED.replace(true);
+    let outcome = catch_unwind(AssertUnwindSafe(body));
+    GUARDED.set(outer);
+    let failure = match outcome {
+        Ok(Ok(())) => return UMB_OK,
+        Ok(Err(error)) => Failure::Error(error),
+        Err(payload) => Failure::Panic(payload),
+    };
+    // SAFETY: handed on.
+    unsafe { failure.report(error) };
+    failure.status()
+}
+
+/// A library must not write to its host's standard error: panics that a guard will catch, on the caller's thread or on a
+/// worker's, skip the hook that prints them. All others go where they went before.
+fn silence_guarded_panics() {
+    static INSTALLED: Once = Once::new();
+    INSTALLED.call_once(|| {
+        let previous = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            let worker = std::thread::current().name() == Some(crate::parallel::THREAD_NAME);
+            if !worker && !GUARDED.get() {
+                previous(info);
+            }
+        }));
+    });
+}
+
+/// A struct that starts with its size and of which all zeros are valid, and mean the defaults.
+///
+/// # Safety
+/// `repr(C)`, a `u32` called `struct_size` first, no padding, and valid for any bytes.
+pub(super) unsafe trait Versioned: Copy {
+    /// Its name.
+    const NAME: &'static str;
+    /// The size of its first version.
+    const FIRST_SIZE: usize;
+}
+
+/// No version of any struct is larger; a size beyond it is not worth reading the tail for.
+const LARGEST: usize = 4096;
+
+/// Reads a struct of any version, past or to come: fields that the caller's version lacks are zero, and fields that it
+/// has and this one lacks must be. A size of 0 stands for the first version; null for all zeros.
+///
+/// # Errors
+/// [`Error::StructSize`], [`Error::UnknownField`].
+///
+/// # Safety
+/// `pointer` is null, or points to as many readable bytes as the size at their start says.
+pub(super) unsafe fn read_versioned<T: Versioned>(pointer: *const T) -> Result<T, Error> {
+    // SAFETY: `Versioned` types are valid for zeros.
+    let mut value: T = unsafe { std::mem::zeroed() };
+    if pointer.is_null() {
+        return Ok(value);
+    }
+    let bytes: *const u8 = pointer.cast();
+    // SAFETY: the size field is there.
+    let size = match unsafe { bytes.cast::<u32>().read_unaligned() } as usize {
+        0 => T::FIRST_SIZE,
+        size => size,
+    };
+    if !(T::FIRST_SIZE..=LARGEST).contains(&size) {
+        return Err(Error::StructSize { what: T::NAME, size });
+    }
+    let known = size_of::<T>();
+    for byte in known..size {
+        // SAFETY: below the size that the caller vouches for.
+        if unsafe { bytes.add(byte).read() } != 0 {
+            return Err(Error::UnknownField { what: T::NAME, byte });
+        }
+    }
+    // SAFETY: both have that many bytes, and any bytes are a valid `T`.
+    unsafe { std::ptr::copy_nonoverlapping(bytes, (&raw mut value).cast::<u8>(), size.min(known)) };
+    Ok(value)
+}
+
+/// Refuses a reserved field that is not zero.
+pub(super) fn check_reserved(what: &'static str, offset: usize, value: u32) -> Result<(), Error> {
+    if value == 0 { Ok(()) } else { Err(Error::UnknownField { what, byte: offset }) }
+}
+
+/// The value behind a pointer.
+///
+/// # Safety
+/// `pointer` is null, or points to a readable `T`, aligned or not.
+pub(super) unsafe fn read_required<T: Copy>(pointer: *const T, what: &'static str) -> Result<T, Error> {
+    if pointer.is_null() {
+        return Err(Error::NullPointer { what });
+    }
+    // SAFETY: not null, so readable.
+    Ok(unsafe { pointer.read_unaligned() })
+}

@@ -1,0 +1,274 @@
+//! Vertex and face normals.
+
+use super::guard::{check_reserved, guard, read_required, read_versioned};
+use super::status::{umb_error, umb_status};
+use super::topology::umb_topology;
+use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
+use crate::error::Error;
+use crate::normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+use std::mem::offset_of;
+
+/// How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
+///
+/// N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
+/// polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
+pub type umb_weight = u32;
+/// N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates,
+/// which combine edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / a. The default; the
+/// best one-ring average on irregular smooth meshes.
+pub const UMB_WEIGHT_CONFORMAL: umb_weight = 0;
+/// 1 (Gouraud 1971, N_G).
+pub const UMB_WEIGHT_UNIFORM: umb_weight = 1;
+/// theta_i (Thuermer and Wuethrich 1998, N_T). Does not depend on how a flat face is cut up.
+pub const UMB_WEIGHT_ANGLE: umb_weight = 2;
+/// A_i (N_M).
+pub const UMB_WEIGHT_AREA: umb_weight = 3;
+/// |sin theta_i| / (a b) (Max 1999). Exact where the vertex and its neighbours lie on a sphere.
+pub const UMB_WEIGHT_MAX: umb_weight = 4;
+/// A_i / g_i (N_C of Chen and Wu 2004 as the paper prints it).
+pub const UMB_WEIGHT_CENTROID_AREA: umb_weight = 5;
+/// 1 / g_i^2 (N_C of Chen and Wu 2004 as the paper's tables use it).
+pub const UMB_WEIGHT_CENTROID: umb_weight = 6;
+/// 1 / sqrt(a b) (Jin, Lewis and West 2005).
+pub const UMB_WEIGHT_INVERSE_ROOT_EDGES: umb_weight = 7;
+/// |sin theta_i|
+pub const UMB_WEIGHT_SINE: umb_weight = 8;
+/// theta_i a b
+pub const UMB_WEIGHT_ANGLE_EDGES: umb_weight = 9;
+
+/// Which vertex normals to compute, and how. All zero: N_CM at all vertices.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_normal_options {
+    /// `sizeof(umb_normal_options)`; 0 stands for the size of its first version.
+    pub struct_size: u32,
+    /// The weight.
+    pub weight: umb_weight,
+    /// How to run.
+    pub run: umb_run,
+}
+
+/// Where vertex normals go; any of them may be left out.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_normal_outputs {
+    /// `sizeof(umb_normal_outputs)`; 0 stands for the size of its first version.
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// Unit normals, `#V x 3`; (0, 0, 0) where the status says isolated or degenerate.
+    pub normal: umb_output,
+    /// The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
+    /// and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Beyond the
+    /// scalar's range its largest value stands.
+    pub sum: umb_output,
+    /// `UMB_VERTEX_` bits, `#V`.
+    pub status: umb_status_output,
+}
+
+/// How face normals are computed. All zero: the defaults.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_face_options {
+    /// `sizeof(umb_face_options)`; 0 stands for the size of its first version.
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// How to run; `vertices` must be null.
+    pub run: umb_run,
+}
+
+/// Where face normals go; any of them may be left out.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_face_outputs {
+    /// `sizeof(umb_face_outputs)`; 0 stands for the size of its first version.
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// Unit normals, `#F x 3`; (0, 0, 0) where a face has none.
+    pub normal: umb_output,
+    /// Area vectors, `#F x 3`: along the normal, as long as the area is large (length^2).
+    pub area_vector: umb_output,
+    /// 0 or `UMB_VERTEX_DEGENERATE`, `#F`.
+    pub status: umb_status_output,
+}
+
+/// Computes vertex normals over the one-rings of a topology.
+///
+/// Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
+/// vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
+/// sums of all fans are added. Faces without area, edges without length and pairs of opposite faces drop out of a sum; if
+/// nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
+/// `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
+///
+/// Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
+/// the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
+/// triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+/// bits for any number of threads, any vectors and any choice of vertices.
+///
+/// Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
+///
+/// @param topology the handle
+/// @param points the positions of all its vertices; read only during the call
+/// @param options may be null
+/// @param outputs where results go; each has an element for every vertex. Written only if the call succeeds, or, after
+/// a cancel, in part
+/// @param error may be null
+///
+/// Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`,
+/// `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`,
+/// `_CANCELLED`.
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+#[must_use]
+pub unsafe extern "C" fn umb_vertex_normals(
+    topology: *const umb_topology,
+    points: *const umb_points,
+    options: *const umb_normal_options,
+    outputs: *const umb_normal_outputs,
+    error: *mut umb_error,
+) -> umb_status {
+    // SAFETY: the header asks of the caller what these ask for.
+    unsafe {
+        guard(error, || {
+            let topology = &topology.as_ref().ok_or(Error::NullPointer { what: "topology" })?.0;
+            let points = read_required(points, "points")?.view()?;
+            let options = read_versioned(options)?;
+            let outputs = vertex_outputs(outputs, topology.vertex_count())?;
+            let mut progress = options.run.callback();
+            let run = options.run.view(progress.as_mut().map(|call| call as _))?;
+            vertex_normals(topology, &points, weight(options.weight)?, run, &outputs)
+        })
+    }
+}
+
+/// Computes vertex normals straight from faces, without a topology.
+///
+/// For a mesh whose normals are wanted once. N_CM, and a subset of vertices, build a topology for the call; every other
+/// weight takes one pass over the faces, on the calling thread, in double precision. The sums then run in face order, so
+/// results agree with `umb_vertex_normals` to rounding, not to the bit; of the statuses only isolated, fallback and
+/// degenerate are told. Everything else is as there.
+///
+/// @param faces the faces; read only during the call
+/// @param points the positions of all vertices; read only during the call
+/// @param options may be null
+/// @param outputs where results go, as in `umb_vertex_normals`
+/// @param error may be null
+///
+/// Errors: as `umb_vertex_normals` and `umb_topology_create`.
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+#[must_use]
+pub unsafe extern "C" fn umb_vertex_normals_from_faces(
+    faces: *const umb_faces,
+    points: *const umb_points,
+    options: *const umb_normal_options,
+    outputs: *const umb_normal_outputs,
+    error: *mut umb_error,
+) -> umb_status {
+    // SAFETY: the header asks of the caller what these ask for.
+    unsafe {
+        guard(error, || {
+            let faces = read_required(faces, "faces")?.view()?;
+            let points = read_required(points, "points")?.view()?;
+            let options = read_versioned(options)?;
+            let outputs = vertex_outputs(outputs, points.len())?;
+            let mut progress = options.run.callback();
+            let run = options.run.view(progress.as_mut().map(|call| call as _))?;
+            vertex_normals_from_faces(&faces, &points, weight(options.weight)?, run, &outputs)
+        })
+    }
+}
+
+/// Computes face normals: unit vectors along each face's area vector, `1/2 sum (p_k - p_0) x (p_(k+1) - p_0)`, which is
+/// right for triangles, concave and non-planar polygons, collinear and repeated corners. A face whose area vector vanishes
+/// has the normal (0, 0, 0) and the status `UMB_VERTEX_DEGENERATE`. Double precision; same bits on any number of threads.
+///
+/// @param faces the faces; read only during the call
+/// @param points the positions of all vertices; read only during the call
+/// @param options may be null
+/// @param outputs where results go; each has an element for every face
+/// @param error may be null
+///
+/// Errors: as `umb_vertex_normals` and `umb_topology_create`.
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+#[must_use]
+pub unsafe extern "C" fn umb_face_normals(
+    faces: *const umb_faces,
+    points: *const umb_points,
+    options: *const umb_face_options,
+    outputs: *const umb_face_outputs,
+    error: *mut umb_error,
+) -> umb_status {
+    // SAFETY: the header asks of the caller what these ask for.
+    unsafe {
+        guard(error, || {
+            let faces = read_required(faces, "faces")?.view()?;
+            let points = read_required(points, "points")?.view()?;
+            let options = read_versioned(options)?;
+            check_reserved("umb_face_options", offset_of!(umb_face_options, reserved), options.reserved)?;
+            let outputs = required(outputs, "outputs")?;
+            check_reserved("umb_face_outputs", offset_of!(umb_face_outputs, reserved), outputs.reserved)?;
+            let outputs = FaceOutputs {
+                normal: outputs.normal.view(faces.len())?,
+                area_vector: outputs.area_vector.view(faces.len())?,
+                status: outputs.status.view(faces.len())?,
+            };
+            let mut progress = options.run.callback();
+            let run = options.run.view(progress.as_mut().map(|call| call as _))?;
+            if run.vertices.is_some() {
+                let byte = offset_of!(umb_face_options, run) + offset_of!(umb_run, vertices);
+                return Err(Error::UnknownField { what: "umb_face_options", byte });
+            }
+            face_normals(&faces, &points, run, &outputs)
+        })
+    }
+}
+
+/// # Safety
+/// `outputs` is null or as the header asks, its arrays with an element for each of `vertex_count` vertices.
+unsafe fn vertex_outputs<'a>(
+    outputs: *const umb_normal_outputs,
+    vertex_count: usize,
+) -> Result<NormalOutputs<'a>, Error> {
+    // SAFETY: handed on.
+    unsafe {
+        let outputs = required(outputs, "outputs")?;
+        check_reserved("umb_normal_outputs", offset_of!(umb_normal_outputs, reserved), outputs.reserved)?;
+        Ok(NormalOutputs {
+            normal: outputs.normal.view(vertex_count)?,
+            sum: outputs.sum.view(vertex_count)?,
+            status: outputs.status.view(vertex_count)?,
+        })
+    }
+}
+
+/// A versioned struct that may not be null.
+///
+/// # Safety
+/// As [`read_versioned`].
+unsafe fn required<T: super::guard::Versioned>(pointer: *const T, what: &'static str) -> Result<T, Error> {
+    if pointer.is_null() {
+        return Err(Error::NullPointer { what });
+    }
+    // SAFETY: handed on.
+    unsafe { read_versioned(pointer) }
+}
+
+fn weight(value: umb_weight) -> Result<Weight, Error> {
+    Ok(match value {
+        UMB_WEIGHT_CONFORMAL => Weight::Conformal,
+        UMB_WEIGHT_UNIFORM => Weight::Uniform,
+        UMB_WEIGHT_ANGLE => Weight::Angle,
+        UMB_WEIGHT_AREA => Weight::Area,
+        UMB_WEIGHT_MAX => Weight::Max,
+        UMB_WEIGHT_CENTROID_AREA => Weight::CentroidArea,
+        UMB_WEIGHT_CENTROID => Weight::Centroid,
+        UMB_WEIGHT_INVERSE_ROOT_EDGES => Weight::InverseRootEdges,
+        UMB_WEIGHT_SINE => Weight::Sine,
+        UMB_WEIGHT_ANGLE_EDGES => Weight::AngleEdges,
+        value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
+    })
+}

@@ -1,0 +1,295 @@
+//! Views and options as C sees them.
+
+use super::guard::{Versioned, check_reserved};
+use crate::error::Error;
+use crate::parallel::Run;
+use crate::simd::Level;
+use crate::view::{Faces, Indices, Output, Points, StatusOutput};
+use libc::{c_int, c_void, size_t};
+use std::mem::offset_of;
+
+/// The scalar type of an array: `UMB_SCALAR_F32` or `UMB_SCALAR_F64`.
+pub type umb_scalar = u32;
+/// 32-bit floating point; the default.
+pub const UMB_SCALAR_F32: umb_scalar = 0;
+/// 64-bit floating point.
+pub const UMB_SCALAR_F64: umb_scalar = 1;
+
+/// The integer type of an index array: `UMB_INDEX_U32`, `UMB_INDEX_I32` or `UMB_INDEX_U64`.
+pub type umb_index = u32;
+/// Unsigned, 32 bits; the default.
+pub const UMB_INDEX_U32: umb_index = 0;
+/// Signed, 32 bits; negative indices are refused.
+pub const UMB_INDEX_I32: umb_index = 1;
+/// Unsigned, 64 bits.
+pub const UMB_INDEX_U64: umb_index = 2;
+
+/// The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
+pub type umb_simd = u32;
+/// The widest that the CPU has; the default.
+pub const UMB_SIMD_BEST: umb_simd = 0;
+/// None: plain code that runs on any CPU.
+pub const UMB_SIMD_PORTABLE: umb_simd = 1;
+/// At most SSE2.
+pub const UMB_SIMD_SSE2: umb_simd = 2;
+/// At most AVX2.
+pub const UMB_SIMD_AVX2: umb_simd = 3;
+/// At most AVX-512.
+pub const UMB_SIMD_AVX512: umb_simd = 4;
+
+/// Vertex positions, `#V × 3`, borrowed for the call.
+///
+/// The coordinates of a vertex lie next to each other; vertices lie `stride` bytes apart, so the points of OpenMesh,
+/// CGAL or MeshLab, and interleaved vertex buffers, are read where they are.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_points {
+    /// The first coordinate of the first vertex, aligned to its scalar.
+    pub data: *const c_void,
+    /// The number of vertices.
+    pub count: size_t,
+    /// Bytes from one vertex to the next, a multiple of the scalar's size; 0 if packed.
+    pub stride: size_t,
+    /// The scalar type.
+    pub scalar: umb_scalar,
+    /// 0
+    pub reserved: u32,
+}
+
+/// Faces, `#F` loops of vertex indices (counter-clockwise seen from outside), borrowed for the call.
+///
+/// Without offsets, every face has `arity` corners. With offsets, face `f` has the indices from `offsets[f]` up to
+/// `offsets[f + 1]`: there are `face_count + 1` offsets, of the same integer type as the indices.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_faces {
+    /// The corners of all faces, one face after the other, packed and aligned.
+    pub indices: *const c_void,
+    /// The number of indices.
+    pub index_count: size_t,
+    /// Where each face starts, and the end of the last; null if all faces have `arity` corners.
+    pub offsets: *const c_void,
+    /// The number of faces; without offsets it may be 0, and follows from `index_count`.
+    pub face_count: size_t,
+    /// The integer type of indices and offsets.
+    pub index: umb_index,
+    /// The corners of each face if `offsets` is null, 0 meaning 3; 0 if there are offsets.
+    pub arity: u32,
+}
+
+/// An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
+///
+/// It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
+/// be interleaved with the positions; its elements must not overlap them.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_output {
+    /// The first scalar of the first element, aligned.
+    pub data: *mut c_void,
+    /// Bytes from one element to the next, a multiple of the scalar's size; 0 if packed.
+    pub stride: size_t,
+    /// The scalar type.
+    pub scalar: umb_scalar,
+    /// 0
+    pub reserved: u32,
+}
+
+/// An array of bytes to write, in the caller's memory: `UMB_VERTEX_` bits. Null `data`: not wanted.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_status_output {
+    /// The first byte.
+    pub data: *mut u8,
+    /// Bytes from one element to the next; 0 if packed.
+    pub stride: size_t,
+}
+
+/// Called on the calling thread with the fraction done, 0 to 1; non-zero cancels. It must return (no `longjmp`, no
+/// exception).
+pub type umb_progress = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> c_int>;
+
+/// How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_run {
+    /// The number of threads; 0 for as many as pay, 1 for the calling thread alone. Never changes a bit of a result.
+    pub threads: u32,
+    /// The widest vectors to use.
+    pub simd: umb_simd,
+    /// The vertices to compute; null for all. Outputs stay indexed by vertex; those of other vertices are left alone.
+    /// The results are the same bits as those of a call for all vertices.
+    pub vertices: *const u32,
+    /// The number of `vertices`.
+    pub vertex_count: size_t,
+    /// Called now and then; may be null.
+    pub progress: umb_progress,
+    /// Handed to `progress`.
+    pub user: *mut c_void,
+}
+
+// SAFETY: repr(C), the size first, no padding (asserted below), and any bytes are valid: pointers and a nullable
+// function pointer included.
+unsafe impl Versioned for super::umb_topology_options {
+    const NAME: &'static str = "umb_topology_options";
+    const FIRST_SIZE: usize = 8;
+}
+// SAFETY: as above.
+unsafe impl Versioned for super::umb_normal_options {
+    const NAME: &'static str = "umb_normal_options";
+    const FIRST_SIZE: usize = 8 + size_of::<umb_run>();
+}
+// SAFETY: as above.
+unsafe impl Versioned for super::umb_face_options {
+    const NAME: &'static str = "umb_face_options";
+    const FIRST_SIZE: usize = 8 + size_of::<umb_run>();
+}
+// SAFETY: as above.
+unsafe impl Versioned for super::umb_normal_outputs {
+    const NAME: &'static str = "umb_normal_outputs";
+    const FIRST_SIZE: usize = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
+}
+// SAFETY: as above.
+unsafe impl Versioned for super::umb_face_outputs {
+    const NAME: &'static str = "umb_face_outputs";
+    const FIRST_SIZE: usize = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
+}
+const _: () = {
+    assert!(size_of::<super::umb_topology_options>() == 8);
+    assert!(size_of::<super::umb_normal_options>() == 8 + size_of::<umb_run>());
+    assert!(size_of::<super::umb_face_options>() == 8 + size_of::<umb_run>());
+    let outputs = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
+    assert!(size_of::<super::umb_normal_outputs>() == outputs);
+    assert!(size_of::<super::umb_face_outputs>() == outputs);
+};
+
+impl umb_points {
+    /// # Safety
+    /// The fields describe memory that stays readable and unchanged for `'a`.
+    pub(super) unsafe fn view<'a>(&self) -> Result<Points<'a>, Error> {
+        check_reserved("umb_points", offset_of!(umb_points, reserved), self.reserved)?;
+        // SAFETY: handed on.
+        unsafe {
+            match self.scalar {
+                UMB_SCALAR_F32 => Points::from_raw_f32(self.data.cast(), self.count, self.stride),
+                UMB_SCALAR_F64 => Points::from_raw_f64(self.data.cast(), self.count, self.stride),
+                value => Err(Error::UnknownConstant { what: "points.scalar", value: value as u64 }),
+            }
+        }
+    }
+}
+
+impl umb_faces {
+    /// # Safety
+    /// The fields describe memory that stays readable and unchanged for `'a`.
+    pub(super) unsafe fn view<'a>(&self) -> Result<Faces<'a>, Error> {
+        // SAFETY: handed on.
+        let indices = unsafe { self.indices(self.indices, self.index_count, "faces.indices") }?;
+        if self.offsets.is_null() {
+            let arity = if self.arity == 0 { 3 } else { self.arity as usize };
+            let faces = Faces::uniform(indices, arity)?;
+            if self.face_count != 0 && self.face_count != faces.len() {
+                let (found, expected) = (self.face_count as u64, faces.len() as u64);
+                return Err(Error::Size { what: "faces.face_count", found, expected });
+            }
+            return Ok(faces);
+        }
+        if self.arity != 0 {
+            return Err(Error::Size { what: "faces.arity", found: self.arity as u64, expected: 0 });
+        }
+        let Some(count) = self.face_count.checked_add(1) else {
+            let expected = usize::MAX as u64 - 1;
+            return Err(Error::Size { what: "faces.face_count", found: self.face_count as u64, expected });
+        };
+        // SAFETY: handed on.
+        let offsets = unsafe { self.indices(self.offsets, count, "faces.offsets") }?;
+        Faces::polygons(indices, offsets)
+    }
+
+    /// # Safety
+    /// `data` points to `count` integers of the type that `self.index` names.
+    unsafe fn indices<'a>(
+        &self,
+        data: *const c_void,
+        count: usize,
+        what: &'static str,
+    ) -> Result<Indices<'a>, Error> {
+        // SAFETY: handed on.
+        unsafe {
+            match self.index {
+                UMB_INDEX_U32 => Indices::from_raw(data.cast::<u32>(), count, what),
+                UMB_INDEX_I32 => Indices::from_raw(data.cast::<i32>(), count, what),
+                UMB_INDEX_U64 => Indices::from_raw(data.cast::<u64>(), count, what),
+                value => Err(Error::UnknownConstant { what: "faces.index", value: value as u64 }),
+            }
+        }
+    }
+}
+
+impl umb_output {
+    /// # Safety
+    /// The fields describe memory of `count` elements that is ours alone for `'a`.
+    pub(super) unsafe fn view<'a>(&self, count: usize) -> Result<Option<Output<'a>>, Error> {
+        check_reserved("umb_output", offset_of!(umb_output, reserved), self.reserved)?;
+        if !matches!(self.scalar, UMB_SCALAR_F32 | UMB_SCALAR_F64) {
+            return Err(Error::UnknownConstant { what: "output.scalar", value: self.scalar as u64 });
+        }
+        if self.data.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: handed on.
+        unsafe {
+            match self.scalar {
+                UMB_SCALAR_F32 => Output::from_raw_f32(self.data.cast(), count, self.stride).map(Some),
+                _ => Output::from_raw_f64(self.data.cast(), count, self.stride).map(Some),
+            }
+        }
+    }
+}
+
+impl umb_status_output {
+    /// # Safety
+    /// As [`umb_output::view`].
+    pub(super) unsafe fn view<'a>(&self, count: usize) -> Result<Option<StatusOutput<'a>>, Error> {
+        if self.data.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: handed on.
+        unsafe { StatusOutput::from_raw(self.data, count, self.stride) }.map(Some)
+    }
+}
+
+impl umb_run {
+    /// The progress callback, as Rust calls it.
+    pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
+        let (progress, user) = (self.progress?, self.user);
+        // SAFETY: the caller gave both for this purpose.
+        Some(move |fraction| unsafe { progress(user, fraction) } == 0)
+    }
+
+    /// # Safety
+    /// `vertices` points to `vertex_count` readable indices, or is null.
+    pub(super) unsafe fn view<'a>(&self, progress: Option<&'a mut dyn FnMut(f64) -> bool>) -> Result<Run<'a>, Error> {
+        let level = match self.simd {
+            UMB_SIMD_BEST => Some(Level::best()),
+            UMB_SIMD_PORTABLE => Level::capped("portable"),
+            UMB_SIMD_SSE2 => Level::capped("sse2"),
+            UMB_SIMD_AVX2 => Level::capped("avx2"),
+            UMB_SIMD_AVX512 => Level::capped("avx512"),
+            _ => None,
+        };
+        let level = level.ok_or(Error::UnknownConstant { what: "run.simd", value: self.simd as u64 })?;
+        let vertices = if self.vertices.is_null() {
+            if self.vertex_count > 0 {
+                return Err(Error::NullPointer { what: "run.vertices" });
+            }
+            None
+        } else {
+            // SAFETY: handed on.
+            match unsafe { Indices::from_raw(self.vertices, self.vertex_count, "run.vertices") }? {
+                Indices::U32(vertices) => Some(vertices),
+                _ => None,
+            }
+        };
+        Ok(Run { threads: self.threads as usize, level, vertices, progress })
+    }
+}

@@ -1,0 +1,36 @@
+//! Vertex normals of polygon meshes, on the caller's own memory.
+//!
+//! ```
+//! use umbilic::{Faces, NormalOutputs, Points, Run, Topology, Weight, vertex_normals};
+//!
+//! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]];
+//! let triangles = [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3_u32];
+//!
+//! let topology = Topology::new(&Faces::triangles(&triangles[..])?, positions.len())?;
+//! let mut normals = [[0.0_f32; 3]; 4];
+//! let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..Default::default() };
+//! vertex_normals(&topology, &Points::from(&positions[..]), Weight::Conformal, Run::default(), &outputs)?;
+//! assert!(normals[0].iter().all(|x| (x + 1.0 / 3.0_f32.sqrt()).abs() < 1e-6));
+//! # Ok::<(), umbilic::Error>(())
+//! ```
+//!
+//! The [C interface](capi) is the same library behind `include/umbilic.h`. `ARCHITECTURE.md` tells how the parts hang
+//! together: imports run downwards only, `capi → normals → sweep → topology → view, simd, parallel → error`.
+
+#![deny(missing_docs)]
+
+pub mod capi;
+mod error;
+mod normals;
+mod parallel;
+mod simd;
+mod sweep;
+mod topology;
+mod view;
+
+pub use error::Error;
+pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+pub use parallel::Run;
+pub use simd::Level;
+pub use topology::{Fan, Topology, TopologyStats, status};
+pub use view::{Faces, IndexArray, Indices, Output, Points, StatusOutput};

@@ -1,0 +1,81 @@
+//! Vertex and face normals.
+
+mod conformal;
+mod face;
+mod scatter;
+mod sum;
+mod vertex;
+mod weights;
+
+pub use face::{FaceOutputs, face_normals};
+pub use scatter::vertex_normals_from_faces;
+pub use vertex::{NormalOutputs, vertex_normals};
+
+/// How a vertex normal weighs the faces, or the edges, around the vertex.
+///
+/// `Nᵢ` is the unit normal of face `i` at the vertex, `θᵢ` its interior angle there, `a` and `b` the lengths of its two
+/// edges there, `|fᵢ|` its area, `g` the distance to its centroid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Weight {
+    /// N_CM, the conformal map with mean value coordinates: a combination of edge normals `unit(Nᵢ₋₁ + Nᵢ)`, weighted
+    /// `(tan(αᵢ₋₁/2) + tan(αᵢ/2)) / a` with angles `α` that fill the full circle. The best of the one-ring averages on
+    /// irregular smooth meshes.
+    #[default]
+    Conformal,
+    /// N_G (Gouraud 1971): 1.
+    Uniform,
+    /// N_T (Thürmer & Wüthrich 1998): `θᵢ`. Does not depend on how a flat face is cut up.
+    Angle,
+    /// N_M: `|fᵢ|`.
+    Area,
+    /// Max 1999: `sin θᵢ / (a b)`. Exact where the vertex and its neighbours lie on a sphere.
+    Max,
+    /// N_C as the paper prints it: `|fᵢ| / g`.
+    CentroidArea,
+    /// N_C (Chen & Wu 2004), as the paper's tables use it: `1 / g²`.
+    Centroid,
+    /// Jin, Lewis & West 2005: `1 / √(a b)`.
+    InverseRootEdges,
+    /// `sin θᵢ`
+    Sine,
+    /// `θᵢ a b`
+    AngleEdges,
+}
+
+impl Weight {
+    /// Every weight.
+    pub const ALL: [Weight; 10] = [
+        Weight::Conformal,
+        Weight::Uniform,
+        Weight::Angle,
+        Weight::Area,
+        Weight::Max,
+        Weight::CentroidArea,
+        Weight::Centroid,
+        Weight::InverseRootEdges,
+        Weight::Sine,
+        Weight::AngleEdges,
+    ];
+
+    /// A name in lower case with dashes, for command lines and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Weight::Conformal => "conformal",
+            Weight::Uniform => "uniform",
+            Weight::Angle => "angle",
+            Weight::Area => "area",
+            Weight::Max => "max",
+            Weight::CentroidArea => "centroid-area",
+            Weight::Centroid => "centroid",
+            Weight::InverseRootEdges => "inverse-root-edges",
+            Weight::Sine => "sine",
+            Weight::AngleEdges => "angle-edges",
+        }
+    }
+
+    /// The weight of that name.
+    pub fn from_name(name: &str) -> Option<Weight> {
+        Self::ALL.into_iter().find(|weight| weight.name() == name)
+    }
+}

@@ -1,0 +1,239 @@
+//! Vertex normals: the estimators of this folder over every ring, with their fallbacks and statuses.
+//!
+//! Where the weight asked for leaves nothing (all its terms drop out, or they cancel), the vertex takes the first of
+//! these that has a direction, and says so in its status: Max, area, any one face. If none has, its normal is zero.
+
+use super::Weight;
+use super::conformal::Conformal;
+use super::sum::{Estimator, Sum};
+use super::weights::{
+    Angle, AngleEdges, Area, Centroid, CentroidArea, CornerWeight, InverseRootEdges, Max, Sine, Uniform, term,
+};
+use crate::error::Error;
+use crate::parallel::Run;
+use crate::simd::{Mask, Vector, Vector3};
+use crate::sweep::{Quantity, Ring, RingFaces, Scratch, sweep};
+use crate::topology::{Topology, status};
+use crate::view::{Output, Points, StatusOutput};
+
+/// Where the results of [`vertex_normals`] go; all are optional, and each has an element for every vertex.
+#[derive(Debug, Default)]
+pub struct NormalOutputs<'a> {
+    /// Unit normals, `#V × 3`; zero where there is none.
+    pub normal: Option<Output<'a>>,
+    /// The weighted sums before normalisation, `#V × 3`, in the weight's unit: length² for areas, 1/length² for Max
+    /// and so on. For [`Weight::Conformal`] the weights of each fan are divided by their total, so the length of a
+    /// fan's sum is at most 1. Beyond the scalar's range its largest value stands. Where the status says fallback, it
+    /// is the sum of the fallback.
+    pub sum: Option<Output<'a>>,
+    /// [`status`] bits, `#V`.
+    pub status: Option<StatusOutput<'a>>,
+}
+
+impl NormalOutputs<'_> {
+    pub(super) fn check_counts(&self, vertex_count: usize) -> Result<(), Error> {
+        let expected = vertex_count as u64;
+        let check = |what, found: Option<usize>| match found {
+            Some(found) if found != vertex_count => Err(Error::Size { what, found: found as u64, expected }),
+            _ => Ok(()),
+        };
+        check("normal.count", self.normal.as_ref().map(Output::len))?;
+        check("sum.count", self.sum.as_ref().map(Output::len))?;
+        check("status.count", self.status.as_ref().map(StatusOutput::len))
+    }
+
+    /// Writes one vertex. `sum` is in the mesh's units.
+    pub(super) fn write(&self, vertex: usize, normal: [f64; 3], sum: [f64; 3], status: u8) {
+        if let Some(output) = &self.normal {
+            output.write(vertex, normal);
+        }
+        if let Some(output) = &self.sum {
+            output.write(vertex, sum);
+        }
+        if let Some(output) = &self.status {
+            output.write(vertex, status);
+        }
+    }
+}
+
+/// Computes the normals of all vertices, or of those in [`Run::vertices`].
+///
+/// Single precision is used where positions and outputs are all `f32` and faces are triangles; a vertex whose single-
+/// precision result could be off by more than about 1e-6 is computed again in double precision.
+///
+/// # Errors
+/// [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`]; [`Error::IndexOutOfRange`] for a vertex to
+/// compute that is none; [`Error::Cancelled`]; [`Error::OutOfMemory`].
+pub fn vertex_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    weight: Weight,
+    mut run: Run<'_>,
+    outputs: &NormalOutputs<'_>,
+) -> Result<(), Error> {
+    outputs.check_counts(topology.vertex_count())?;
+    let double = [&outputs.normal, &outputs.sum].into_iter().flatten().any(Output::is_double);
+    macro_rules! with {
+        ($estimator:ident) => {{
+            let quantity =
+                Normals::<$estimator> { outputs, flags: topology.flags(), estimator: std::marker::PhantomData };
+            sweep(topology, points, &mut run, double, &quantity)
+        }};
+    }
+    match weight {
+        Weight::Conformal => with!(Conformal),
+        Weight::Uniform => with!(Uniform),
+        Weight::Angle => with!(Angle),
+        Weight::Area => with!(Area),
+        Weight::Max => with!(Max),
+        Weight::CentroidArea => with!(CentroidArea),
+        Weight::Centroid => with!(Centroid),
+        Weight::InverseRootEdges => with!(InverseRootEdges),
+        Weight::Sine => with!(Sine),
+        Weight::AngleEdges => with!(AngleEdges),
+    }
+}
+
+struct Normals<'a, E> {
+    outputs: &'a NormalOutputs<'a>,
+    flags: &'a [u8],
+    estimator: std::marker::PhantomData<E>,
+}
+
+impl<E: Estimator> Quantity for Normals<'_, E> {
+    const CENTROIDS: bool = E::CENTROIDS;
+
+    #[inline(always)]
+    fn block<V: Vector, F: RingFaces<V>>(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, V, F>,
+        scale: V,
+        scratch: &mut Scratch<V>,
+    ) -> u32 {
+        let sum = E::sum(ring, scratch);
+        let (trusted, squared) = sum.trusted();
+        let normal = sum.vector * (V::one() / squared.sqrt());
+        let trusted = trusted.bits();
+        if let Some(output) = &self.outputs.normal {
+            let lanes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
+            for (lane, &vertex) in vertices.iter().enumerate() {
+                if trusted & 1 << lane != 0 {
+                    output.write_lane(vertex as usize, lanes.map(|axis| axis[lane]));
+                }
+            }
+        }
+        if let Some(output) = &self.outputs.sum {
+            let axes = [sum.vector.x, sum.vector.y, sum.vector.z].map(V::to_lanes);
+            let (total, scale) = (sum.total.to_lanes(), scale.to_lanes());
+            for (lane, &vertex) in vertices.iter().enumerate() {
+                if trusted & 1 << lane != 0 {
+                    let vector = axes.map(|axis| axis[lane].into());
+                    output.write(vertex as usize, unscale::<E>(vector, total[lane].into(), scale[lane].into()));
+                }
+            }
+        }
+        if let Some(output) = &self.outputs.status {
+            for (lane, &vertex) in vertices.iter().enumerate() {
+                if trusted & 1 << lane != 0 {
+                    output.write(vertex as usize, self.flags[vertex as usize]);
+                }
+            }
+        }
+        !trusted & lane_bits(vertices.len())
+    }
+
+    fn alone<F: RingFaces<f64>>(
+        &self,
+        vertex: usize,
+        fans: &[Ring<'_, f64, F>],
+        scale: f64,
+        scratch: &mut Scratch<f64>,
+    ) {
+        let found = with_fallback::<E, F>(fans, scale, scratch);
+        let (normal, sum, fallback) = found.unwrap_or(([0.0; 3], [0.0; 3], status::DEGENERATE));
+        self.outputs.write(vertex, normal, sum, self.flags[vertex] | fallback);
+    }
+
+    fn isolated(&self, vertex: usize) {
+        self.outputs.write(vertex, [0.0; 3], [0.0; 3], status::ISOLATED);
+    }
+}
+
+fn lane_bits(lanes: usize) -> u32 {
+    (1u32 << lanes) - 1
+}
+
+/// A unit normal, the sum it came from in the mesh's units, and status bits.
+type Found = ([f64; 3], [f64; 3], u8);
+
+/// The estimator's normal, or that of the first fallback that has one.
+fn with_fallback<E: Estimator, F: RingFaces<f64>>(
+    fans: &[Ring<'_, f64, F>],
+    scale: f64,
+    scratch: &mut Scratch<f64>,
+) -> Option<Found> {
+    over_fans::<E, F>(fans, scale, scratch)
+        .or_else(|| over_fans::<Max, F>(fans, scale, scratch).map(as_fallback))
+        .or_else(|| over_fans::<Area, F>(fans, scale, scratch).map(as_fallback))
+        .or_else(|| any_face(fans, scale).map(as_fallback))
+}
+
+fn as_fallback((normal, sum, _): Found) -> Found {
+    (normal, sum, status::FALLBACK)
+}
+
+fn over_fans<E: Estimator, F: RingFaces<f64>>(
+    fans: &[Ring<'_, f64, F>],
+    scale: f64,
+    scratch: &mut Scratch<f64>,
+) -> Option<Found> {
+    let mut all = Sum::<f64>::zero();
+    for fan in fans {
+        let mut sum = E::sum(fan, scratch);
+        if E::MEAN {
+            let share = sum.total.reciprocal_or_zero();
+            sum = Sum { vector: sum.vector * share, spread: sum.spread * share * share, total: sum.total * share };
+        }
+        all.vector = all.vector + sum.vector;
+        all.spread += sum.spread;
+    }
+    let normal = unit(&all)?;
+    let Vector3 { x, y, z } = all.vector;
+    // Each fan's share has been taken already.
+    Some((normal, unscale_by(E::POWER, [x, y, z], scale), 0))
+}
+
+/// The area vector of the first face that has one.
+fn any_face<F: RingFaces<f64>>(fans: &[Ring<'_, f64, F>], scale: f64) -> Option<Found> {
+    let corners = fans.iter().flat_map(|fan| (0..fan.corner_count()).map(|index| fan.corner(index)));
+    corners.into_iter().find_map(|corner| {
+        let (vector, spread) = term::<Area, f64, F::Face>(&corner);
+        let normal = unit(&Sum { vector, spread, total: 0.0 })?;
+        Some((normal, unscale_by(Area::DIMENSION, [vector.x, vector.y, vector.z], scale), 0))
+    })
+}
+
+pub(super) fn unit(sum: &Sum<f64>) -> Option<[f64; 3]> {
+    let (trusted, squared) = sum.trusted();
+    let normal = sum.vector * (1.0 / squared.sqrt());
+    trusted.then_some([normal.x, normal.y, normal.z])
+}
+
+/// A fan's sum in the mesh's units.
+fn unscale<E: Estimator>(vector: [f64; 3], total: f64, scale: f64) -> [f64; 3] {
+    if E::MEAN {
+        return vector.map(|x| x * total.reciprocal_or_zero());
+    }
+    unscale_by(E::POWER, vector, scale)
+}
+
+/// A length to the power `power` from the ring's units to the mesh's, in steps that do not overflow before the result.
+pub(super) fn unscale_by(power: i32, vector: [f64; 3], scale: f64) -> [f64; 3] {
+    vector.map(|mut x| {
+        for _ in 0..power.abs() {
+            x = if power > 0 { x / scale } else { x * scale };
+        }
+        x
+    })
+}

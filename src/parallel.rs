@@ -1,0 +1,137 @@
+//! Threads, progress and cancellation of one call.
+//!
+//! Work is cut into chunks; every thread, the caller's among them, claims the next chunk until none is left. Which
+//! thread takes which chunk never changes a result, because a chunk depends on nothing but the input. Threads are
+//! scoped: none outlives the call.
+
+use crate::error::Error;
+use crate::simd::Level;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+
+/// How a call is carried out. The default: all cores where that pays, the widest vectors, all vertices.
+pub struct Run<'a> {
+    /// The number of threads; 0 for as many as pay, at most one a core.
+    pub threads: usize,
+    /// The vectors to use. It never changes a bit of a result.
+    pub level: Level,
+    /// The vertices to compute; `None` for all. Outputs stay indexed by vertex, and those of other vertices are left
+    /// alone. A vertex's result does not depend on which others are computed.
+    pub vertices: Option<&'a [u32]>,
+    /// Called now and then, on the calling thread only, with the fraction done; `false` cancels.
+    pub progress: Option<&'a mut dyn FnMut(f64) -> bool>,
+}
+
+impl Default for Run<'_> {
+    fn default() -> Self {
+        Run { threads: 0, level: Level::best(), vertices: None, progress: None }
+    }
+}
+
+impl std::fmt::Debug for Run<'_> {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Run")
+            .field("threads", &self.threads)
+            .field("level", &self.level)
+            .field("vertices", &self.vertices.map(<[u32]>::len))
+            .field("progress", &self.progress.is_some())
+            .finish()
+    }
+}
+
+/// What the threads of this library are called.
+pub(crate) const THREAD_NAME: &str = "umbilic";
+
+/// Fewer chunks than this for each thread are not worth starting it.
+const CHUNKS_A_THREAD: usize = 16;
+
+/// The chunks of a call, as one thread sees them.
+pub(crate) struct Claims<'a, 'p> {
+    shared: &'a Shared,
+    progress: Option<&'a mut (dyn FnMut(f64) -> bool + 'p)>,
+}
+
+struct Shared {
+    next: AtomicUsize,
+    count: usize,
+    cancelled: AtomicBool,
+}
+
+impl Claims<'_, '_> {
+    /// The next chunk to do; `None` when all are claimed or the call was cancelled.
+    pub(crate) fn next(&mut self) -> Option<usize> {
+        if let Some(progress) = &mut self.progress {
+            let done = self.shared.next.load(Relaxed).min(self.shared.count);
+            if !progress(done as f64 / self.shared.count as f64) {
+                self.shared.cancelled.store(true, Relaxed);
+            }
+        }
+        if self.shared.cancelled.load(Relaxed) {
+            return None;
+        }
+        let chunk = self.shared.next.fetch_add(1, Relaxed);
+        (chunk < self.shared.count).then_some(chunk)
+    }
+}
+
+/// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub(crate) fn for_each_chunk(
+    run: &mut Run<'_>,
+    count: usize,
+    work: impl Fn(&mut Claims<'_, '_>) + Sync,
+) -> Result<(), Error> {
+    let shared = Shared { next: AtomicUsize::new(0), count, cancelled: AtomicBool::new(false) };
+    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    let threads = match run.threads {
+        0 => (count / CHUNKS_A_THREAD).clamp(1, cores()),
+        threads => threads.min(count.max(1)),
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..threads {
+            let spawned = std::thread::Builder::new()
+                .name(THREAD_NAME.to_owned())
+                .spawn_scoped(scope, || work(&mut Claims { shared: &shared, progress: None }));
+            // A system that has no more threads to give leaves the work to those there are.
+            if spawned.is_err() {
+                break;
+            }
+        }
+        work(&mut Claims { shared: &shared, progress: run.progress.as_deref_mut() });
+    });
+    if shared.cancelled.load(Relaxed) {
+        return Err(Error::Cancelled);
+    }
+    if let Some(progress) = &mut run.progress {
+        // All is written, so a wish to cancel comes too late to matter.
+        progress(1.0);
+    }
+    Ok(())
+}
+
+/// Sets each element to `value(index)`, by as many threads as `threads` asks for (0: as many as pay).
+pub(crate) fn fill<T: Send>(threads: usize, elements: &mut [T], value: impl Fn(usize) -> T + Sync) {
+    const FEWEST: usize = 1 << 15;
+    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    let threads = match threads {
+        0 => (elements.len() / FEWEST).clamp(1, cores()),
+        threads => threads,
+    };
+    let fill_part = |start: usize, part: &mut [T]| {
+        for (index, element) in part.iter_mut().enumerate() {
+            *element = value(start + index);
+        }
+    };
+    let length = elements.len().div_ceil(threads).max(1);
+    let mut parts = elements.chunks_mut(length).enumerate();
+    let own = parts.next();
+    std::thread::scope(|scope| {
+        for (index, part) in parts {
+            scope.spawn(move || fill_part(index * length, part));
+        }
+        if let Some((_, part)) = own {
+            fill_part(0, part);
+        }
+    });
+}

@@ -1,0 +1,173 @@
+//! Lanes: the vector types that every kernel is written over, and the choice of the widest one the CPU has.
+//!
+//! A kernel is one generic source over [`Vector`]. It is instantiated once per [`Width`] inside a function that
+//! carries the CPU features of that width, and [`dispatch`] picks one of them per call. Each lane does exactly
+//! the IEEE operations that a scalar would do, in the same order, so the width never changes a bit of a result.
+//!
+//! Everything on the way from [`Task::run`] down to an intrinsic must be `#[inline(always)]`: a call that is not
+//! inlined loses the CPU features and becomes several times slower.
+
+mod math;
+mod portable;
+mod vector;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
+pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3};
+
+/// The instruction sets a call may use, narrowest first.
+///
+/// A value above [`Level::Portable`] exists only where the CPU was seen to have it, because [`Level::best`] and
+/// [`Level::capped`] are the only ways to get one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Level(Kind);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Level {
+    /// Plain Rust arrays, on any CPU.
+    pub const PORTABLE: Level = Level(Kind::Portable);
+
+    /// The widest level of this CPU.
+    pub fn best() -> Level {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw")
+                && is_x86_feature_detected!("avx512vl")
+            {
+                return Level(Kind::Avx512);
+            }
+            if is_x86_feature_detected!("avx2") {
+                return Level(Kind::Avx2);
+            }
+            Level(Kind::Sse2)
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        Level(Kind::Portable)
+    }
+
+    /// Every level of this CPU, narrowest first.
+    pub fn all() -> Vec<Level> {
+        [
+            Kind::Portable,
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse2,
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2,
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512,
+        ]
+        .into_iter()
+        .map(Level)
+        .filter(|level| *level <= Level::best())
+        .collect()
+    }
+
+    /// The widest level of this CPU that is not above the level called `name`; `None` for an unknown name.
+    pub fn capped(name: &str) -> Option<Level> {
+        let cap = match name {
+            "portable" => Level(Kind::Portable),
+            #[cfg(target_arch = "x86_64")]
+            "sse2" => Level(Kind::Sse2),
+            #[cfg(target_arch = "x86_64")]
+            "avx2" => Level(Kind::Avx2),
+            #[cfg(target_arch = "x86_64")]
+            "avx512" => Level(Kind::Avx512),
+            #[cfg(not(target_arch = "x86_64"))]
+            "sse2" | "avx2" | "avx512" => Level(Kind::Portable),
+            _ => return None,
+        };
+        Some(cap.min(Level::best()))
+    }
+
+    /// `"portable"`, `"sse2"`, `"avx2"` or `"avx512"`.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Kind::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse2 => "sse2",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512 => "avx512",
+        }
+    }
+}
+
+/// The pair of vector types that a level works with.
+pub(crate) trait Width {
+    /// Lanes of `f32`.
+    type Single: Vector<Scalar = f32>;
+    /// Lanes of `f64`.
+    type Double: Vector<Scalar = f64>;
+}
+
+/// Work that is compiled once per [`Width`].
+pub(crate) trait Task {
+    /// Does the work; implementations are `#[inline(always)]`.
+    fn run<W: Width>(self);
+}
+
+struct Portable;
+impl Width for Portable {
+    type Single = portable::Lanes<f32, 4>;
+    type Double = portable::Lanes<f64, 4>;
+}
+
+#[cfg(target_arch = "x86_64")]
+mod widths {
+    use super::{Task, Width, x86};
+
+    pub struct Sse2;
+    impl Width for Sse2 {
+        type Single = x86::F32x4;
+        type Double = x86::F64x2;
+    }
+    pub struct Avx2;
+    impl Width for Avx2 {
+        type Single = x86::F32x8;
+        type Double = x86::F64x4;
+    }
+    pub struct Avx512;
+    impl Width for Avx512 {
+        type Single = x86::F32x16;
+        type Double = x86::F64x8;
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
+    pub fn run_avx2<T: Task>(task: T) {
+        task.run::<Avx2>();
+    }
+    #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl,avx2,bmi1,bmi2,popcnt,lzcnt")]
+    pub fn run_avx512<T: Task>(task: T) {
+        task.run::<Avx512>();
+    }
+}
+
+/// Runs `task` with the vectors of `level`.
+pub(crate) fn dispatch<T: Task>(level: Level, task: T) {
+    match level.0 {
+        Kind::Portable => task.run::<Portable>(),
+        #[cfg(target_arch = "x86_64")]
+        Kind::Sse2 => task.run::<widths::Sse2>(),
+        // SAFETY: a `Level` of this kind exists only where the CPU was seen to have these features (every CPU
+        // with AVX2 has the bit-manipulation ones too).
+        #[cfg(target_arch = "x86_64")]
+        Kind::Avx2 => unsafe { widths::run_avx2(task) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Kind::Avx512 => unsafe { widths::run_avx512(task) },
+    }
+}

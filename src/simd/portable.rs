@@ -1,0 +1,117 @@
+//! The array back-end: lanes as a plain Rust array, for CPUs that have no back-end of their own.
+
+use super::vector::{MAX_LANES, Mask, Real, Vector, Vector3};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// `N` lanes of `S`.
+#[derive(Clone, Copy)]
+pub(crate) struct Lanes<S, const N: usize>([S; N]);
+
+/// `N` answers.
+#[derive(Clone, Copy)]
+pub(crate) struct Answers<const N: usize>([bool; N]);
+
+impl<const N: usize> Mask for Answers<N> {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Answers(std::array::from_fn(|lane| self.0[lane] & other.0[lane]))
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.iter().enumerate().fold(0, |bits, (lane, yes)| bits | (*yes as u32) << lane)
+    }
+}
+
+macro_rules! binary {
+    ($trait:ident, $method:ident) => {
+        impl<S: Real, const N: usize> $trait for Lanes<S, N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Lanes(std::array::from_fn(|lane| $trait::$method(self.0[lane], other.0[lane])))
+            }
+        }
+    };
+}
+binary!(Add, add);
+binary!(Sub, sub);
+binary!(Mul, mul);
+binary!(Div, div);
+
+impl<S: Real, const N: usize> Neg for Lanes<S, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes(self.0.map(|x| -x))
+    }
+}
+
+impl<S: Real, const N: usize> Lanes<S, N> {
+    #[inline(always)]
+    fn pick(self, other: Self, first: impl Fn(S, S) -> bool) -> Self {
+        Lanes(std::array::from_fn(|lane| {
+            let (a, b) = (self.0[lane], other.0[lane]);
+            if first(a, b) { a } else { b }
+        }))
+    }
+}
+
+impl<S: Real, const N: usize> Vector for Lanes<S, N> {
+    type Scalar = S;
+    type Mask = Answers<N>;
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn splat(x: S) -> Self {
+        Lanes([x; N])
+    }
+    #[inline(always)]
+    fn from_lanes(lanes: &[S; MAX_LANES]) -> Self {
+        Lanes(std::array::from_fn(|lane| lanes[lane]))
+    }
+    #[inline(always)]
+    fn to_lanes(self) -> [S; MAX_LANES] {
+        let mut lanes = [S::ZERO; MAX_LANES];
+        lanes[..N].copy_from_slice(&self.0);
+        lanes
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes(self.0.map(S::root))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Lanes(self.0.map(S::magnitude))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.pick(other, |a, b| a < b)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.pick(other, |a, b| a > b)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Answers<N> {
+        Answers(std::array::from_fn(|lane| self.0[lane] < other.0[lane]))
+    }
+    #[inline(always)]
+    fn select(mask: Answers<N>, yes: Self, no: Self) -> Self {
+        Lanes(std::array::from_fn(|lane| if mask.0[lane] { yes.0[lane] } else { no.0[lane] }))
+    }
+    #[inline(always)]
+    fn unit_scale(self) -> Self {
+        Lanes(self.0.map(S::inverse_power_of_two))
+    }
+    #[inline(always)]
+    unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+        // SAFETY: the caller vouches for the indices, the base and the stride.
+        let points: [[S; 3]; N] =
+            std::array::from_fn(|lane| unsafe { base.add(indices[lane] as usize * stride).cast::<[S; 3]>().read() });
+        Vector3 {
+            x: Lanes(points.map(|point| point[0])),
+            y: Lanes(points.map(|point| point[1])),
+            z: Lanes(points.map(|point| point[2])),
+        }
+    }
+}

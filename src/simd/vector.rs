@@ -1,0 +1,285 @@
+//! The vector trait: what a kernel may do with a row of lanes.
+//!
+//! Only operations whose result IEEE 754 fixes to the bit are here: `+ − × ÷ √`, sign and exponent bits,
+//! comparisons and selection. There is no fused multiply-add, no reciprocal estimate and no sum across lanes,
+//! which is why one source gives the same bits at every width.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// The scalar of a lane: `f32` or `f64`.
+pub(crate) trait Real:
+    Copy
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Into<f64>
+    + Send
+    + Sync
+    + 'static
+{
+    /// 0
+    const ZERO: Self;
+    /// 1
+    const ONE: Self;
+    /// +∞
+    const INFINITY: Self;
+    /// Squares of lengths at or below this (relative to a ring of extent 1) count as zero: their reciprocals,
+    /// and the squares of these, would leave the range of the type.
+    const TINY: Self;
+    /// Whether results that rounding may have spoilt are computed again in `f64`.
+    const SINGLE: bool;
+
+    /// The nearest value of this type.
+    fn from_f64(x: f64) -> Self;
+    /// The square root.
+    fn root(self) -> Self;
+    /// The absolute value.
+    fn magnitude(self) -> Self;
+    /// `2^−floor(log₂ x)` for `x ≥ 0`, kept inside the normal range, so that `x` times it lies in `[1, 4)`, or
+    /// below where `x` is zero or subnormal.
+    fn inverse_power_of_two(self) -> Self;
+}
+
+macro_rules! real {
+    ($scalar:ty, $bits:ty, $exponent_mask:expr, $mirror:expr, $largest:expr, $tiny:expr, $single:expr) => {
+        impl Real for $scalar {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const INFINITY: Self = <$scalar>::INFINITY;
+            const TINY: Self = $tiny;
+            const SINGLE: bool = $single;
+
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                x as $scalar
+            }
+            #[inline(always)]
+            fn root(self) -> Self {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn magnitude(self) -> Self {
+                self.abs()
+            }
+            #[inline(always)]
+            fn inverse_power_of_two(self) -> Self {
+                let x = if self < $largest { self } else { $largest };
+                <$scalar>::from_bits($mirror - (x.to_bits() & $exponent_mask))
+            }
+        }
+    };
+}
+// 2^126 and 2^1022: the largest powers of two whose reciprocal is a normal number.
+real!(f32, u32, 0x7f80_0000, 254 << 23, f32::from_bits(253 << 23), f32::from_bits(27 << 23), true);
+real!(f64, u64, 0x7ff0_0000_0000_0000, 2046 << 52, f64::from_bits(2045 << 52), f64::from_bits(123 << 52), false);
+
+/// A comparison's answer, lane by lane.
+pub(crate) trait Mask: Copy {
+    /// Lanes where both hold.
+    fn and(self, other: Self) -> Self;
+    /// Bit `l` is lane `l`.
+    fn bits(self) -> u32;
+}
+
+/// A row of lanes of one scalar type.
+pub(crate) trait Vector:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// One lane's type.
+    type Scalar: Real;
+    /// What comparisons answer.
+    type Mask: Mask;
+    /// How many lanes.
+    const LANES: usize;
+
+    /// All lanes equal to `x`.
+    fn splat(x: Self::Scalar) -> Self;
+    /// Lane `l` from `lanes[l]`.
+    fn from_lanes(lanes: &[Self::Scalar; MAX_LANES]) -> Self;
+    /// The lanes, in the first [`Vector::LANES`] entries.
+    fn to_lanes(self) -> [Self::Scalar; MAX_LANES];
+    /// Square roots.
+    fn sqrt(self) -> Self;
+    /// Absolute values.
+    fn abs(self) -> Self;
+    /// The smaller; `other` where either is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger; `other` where either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// `self < other`
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `yes` where `mask` holds, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// [`Real::inverse_power_of_two`] of each lane.
+    fn unit_scale(self) -> Self;
+
+    /// The points `indices[0..LANES]` of an array of points of this scalar type.
+    ///
+    /// # Safety
+    /// Every one of those indices `i` must be the index of a point, and be followed by another point: the load may
+    /// read up to one scalar past the third coordinate. `base` and `stride` are aligned for the scalar.
+    unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self>;
+
+    /// All lanes 0.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(Self::Scalar::ZERO)
+    }
+    /// All lanes 1.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(Self::Scalar::ONE)
+    }
+    /// All lanes the nearest value to `x`.
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self::splat(Self::Scalar::from_f64(x))
+    }
+    /// `1/self` where `self` is above [`Real::TINY`], else 0: how a kernel drops a term that has no value.
+    #[inline(always)]
+    fn reciprocal_or_zero(self) -> Self {
+        let usable = Self::splat(Self::Scalar::TINY).lt(self);
+        let safe = Self::select(usable, self, Self::one());
+        Self::select(usable, Self::one() / safe, Self::zero())
+    }
+}
+
+/// No vector has more lanes than this.
+pub(crate) const MAX_LANES: usize = 16;
+
+/// A lone scalar is a vector of one lane: the slow path runs the very same formulas.
+macro_rules! scalar_vector {
+    ($scalar:ty) => {
+        impl Vector for $scalar {
+            type Scalar = $scalar;
+            type Mask = bool;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn splat(x: $scalar) -> Self {
+                x
+            }
+            #[inline(always)]
+            fn from_lanes(lanes: &[$scalar; MAX_LANES]) -> Self {
+                lanes[0]
+            }
+            #[inline(always)]
+            fn to_lanes(self) -> [$scalar; MAX_LANES] {
+                let mut lanes = [0.0; MAX_LANES];
+                lanes[0] = self;
+                lanes
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.root()
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.magnitude()
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn unit_scale(self) -> Self {
+                self.inverse_power_of_two()
+            }
+            #[inline(always)]
+            unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+                // SAFETY: the caller vouches for the index, the base and the stride.
+                let [x, y, z] = unsafe { base.add(indices[0] as usize * stride).cast::<[$scalar; 3]>().read() };
+                Vector3 { x, y, z }
+            }
+        }
+    };
+}
+scalar_vector!(f32);
+scalar_vector!(f64);
+
+impl Mask for bool {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self & other
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self as u32
+    }
+}
+
+/// Three rows of lanes: one vector of space per lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Vector3<V> {
+    pub x: V,
+    pub y: V,
+    pub z: V,
+}
+
+impl<V: Vector> Vector3<V> {
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Vector3 { x: V::zero(), y: V::zero(), z: V::zero() }
+    }
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> V {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+    #[inline(always)]
+    pub fn squared(self) -> V {
+        self.dot(self)
+    }
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Vector3 {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+    #[inline(always)]
+    pub fn largest_component(self) -> V {
+        self.x.abs().max(self.y.abs()).max(self.z.abs())
+    }
+    #[inline(always)]
+    pub fn from_lanes(lanes: &[[V::Scalar; MAX_LANES]; 3]) -> Self {
+        Vector3 { x: V::from_lanes(&lanes[0]), y: V::from_lanes(&lanes[1]), z: V::from_lanes(&lanes[2]) }
+    }
+}
+
+impl<V: Vector> Add for Vector3<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Vector3 { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+impl<V: Vector> Sub for Vector3<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Vector3 { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+impl<V: Vector> Mul<V> for Vector3<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: V) -> Self {
+        Vector3 { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}

@@ -1,0 +1,467 @@
+//! The x86-64 back-ends: SSE2, AVX2 and AVX-512 rows of `f32` and `f64`.
+//!
+//! The types may be used only inside a function that carries the features of their level; [`super::dispatch`]
+//! sees to that. `sub`, `div` … are the plain IEEE instructions: nothing here approximates or fuses.
+
+use super::vector::{MAX_LANES, Mask, Vector, Vector3};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+// SAFETY of every `unsafe` block in this macro: the intrinsics need only the CPU features of their level, and
+// these types are reached only through `super::dispatch`, which has checked them; `from_lanes` and `to_lanes`
+// access arrays of MAX_LANES ≥ LANES scalars with unaligned loads and stores.
+macro_rules! row {
+    ($name:ident, $register:ty, $scalar:ty, $lanes:expr, $mask:ident,
+     $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $min:ident, $max:ident,
+     $load:ident, $store:ident, $abs:expr, $negate:expr, $less:expr, $select:expr, $mirror:expr, $gather:path) => {
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(crate) struct $name($register);
+
+        impl Add for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $add(self.0, other.0) })
+            }
+        }
+        impl Sub for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $sub(self.0, other.0) })
+            }
+        }
+        impl Mul for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $mul(self.0, other.0) })
+            }
+        }
+        impl Div for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $div(self.0, other.0) })
+            }
+        }
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $negate(self.0) })
+            }
+        }
+        impl Vector for $name {
+            type Scalar = $scalar;
+            type Mask = $mask;
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn splat(x: $scalar) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $set(x) })
+            }
+            #[inline(always)]
+            fn from_lanes(lanes: &[$scalar; MAX_LANES]) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $load(lanes.as_ptr()) })
+            }
+            #[inline(always)]
+            fn to_lanes(self) -> [$scalar; MAX_LANES] {
+                let mut lanes = [0.0; MAX_LANES];
+                // SAFETY: see the macro.
+                unsafe { $store(lanes.as_mut_ptr(), self.0) };
+                lanes
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $sqrt(self.0) })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $abs(self.0) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $min(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> $mask {
+                // SAFETY: see the macro.
+                $mask(unsafe { $less(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $select(mask.0, yes.0, no.0) })
+            }
+            #[inline(always)]
+            fn unit_scale(self) -> Self {
+                // SAFETY: see the macro.
+                $name(unsafe { $mirror(self.0) })
+            }
+            #[inline(always)]
+            unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+                // SAFETY: the caller vouches for the indices; for the features see the macro.
+                let (x, y, z) = unsafe { $gather(base, stride, indices) };
+                Vector3 { x: $name(x), y: $name(y), z: $name(z) }
+            }
+        }
+    };
+}
+
+macro_rules! mask {
+    ($name:ident, $register:ty, $and:expr, $bits:expr) => {
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(crate) struct $name($register);
+        impl Mask for $name {
+            #[inline(always)]
+            fn and(self, other: Self) -> Self {
+                // SAFETY: see `row!`.
+                #[allow(unused_unsafe)]
+                $name(unsafe { $and(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                // SAFETY: see `row!`.
+                #[allow(unused_unsafe)]
+                unsafe {
+                    $bits(self.0) as u32
+                }
+            }
+        }
+    };
+}
+
+mask!(M32x4, __m128, _mm_and_ps, _mm_movemask_ps);
+mask!(M64x2, __m128d, _mm_and_pd, _mm_movemask_pd);
+mask!(M32x8, __m256, _mm256_and_ps, _mm256_movemask_ps);
+mask!(M64x4, __m256d, _mm256_and_pd, _mm256_movemask_pd);
+mask!(M32x16, __mmask16, |a: u16, b: u16| a & b, |a: u16| a);
+mask!(M64x8, __mmask8, |a: u8, b: u8| a & b, |a: u8| a);
+
+// The largest power of two whose reciprocal is normal, the exponent field, and its mirror: see
+// `Real::inverse_power_of_two`, whose bits these reproduce.
+const LARGEST_32: f32 = f32::from_bits(253 << 23);
+const LARGEST_64: f64 = f64::from_bits(2045 << 52);
+const EXPONENT_32: i32 = 0x7f80_0000;
+const EXPONENT_64: i64 = 0x7ff0_0000_0000_0000;
+const MIRROR_32: i32 = 254 << 23;
+const MIRROR_64: i64 = 2046 << 52;
+
+row!(
+    F32x4,
+    __m128,
+    f32,
+    4,
+    M32x4,
+    _mm_set1_ps,
+    _mm_add_ps,
+    _mm_sub_ps,
+    _mm_mul_ps,
+    _mm_div_ps,
+    _mm_sqrt_ps,
+    _mm_min_ps,
+    _mm_max_ps,
+    _mm_loadu_ps,
+    _mm_storeu_ps,
+    |a| _mm_andnot_ps(_mm_set1_ps(-0.0), a),
+    |a| _mm_xor_ps(_mm_set1_ps(-0.0), a),
+    |a, b| _mm_cmplt_ps(a, b),
+    |m, yes, no| _mm_or_ps(_mm_and_ps(m, yes), _mm_andnot_ps(m, no)),
+    |a| {
+        let bits = _mm_castps_si128(_mm_min_ps(a, _mm_set1_ps(LARGEST_32)));
+        _mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(MIRROR_32), _mm_and_si128(bits, _mm_set1_epi32(EXPONENT_32))))
+    },
+    gather_f32x4
+);
+row!(
+    F64x2,
+    __m128d,
+    f64,
+    2,
+    M64x2,
+    _mm_set1_pd,
+    _mm_add_pd,
+    _mm_sub_pd,
+    _mm_mul_pd,
+    _mm_div_pd,
+    _mm_sqrt_pd,
+    _mm_min_pd,
+    _mm_max_pd,
+    _mm_loadu_pd,
+    _mm_storeu_pd,
+    |a| _mm_andnot_pd(_mm_set1_pd(-0.0), a),
+    |a| _mm_xor_pd(_mm_set1_pd(-0.0), a),
+    |a, b| _mm_cmplt_pd(a, b),
+    |m, yes, no| _mm_or_pd(_mm_and_pd(m, yes), _mm_andnot_pd(m, no)),
+    |a| {
+        let bits = _mm_castpd_si128(_mm_min_pd(a, _mm_set1_pd(LARGEST_64)));
+        _mm_castsi128_pd(_mm_sub_epi64(_mm_set1_epi64x(MIRROR_64), _mm_and_si128(bits, _mm_set1_epi64x(EXPONENT_64))))
+    },
+    gather_f64x2
+);
+row!(
+    F32x8,
+    __m256,
+    f32,
+    8,
+    M32x8,
+    _mm256_set1_ps,
+    _mm256_add_ps,
+    _mm256_sub_ps,
+    _mm256_mul_ps,
+    _mm256_div_ps,
+    _mm256_sqrt_ps,
+    _mm256_min_ps,
+    _mm256_max_ps,
+    _mm256_loadu_ps,
+    _mm256_storeu_ps,
+    |a| _mm256_andnot_ps(_mm256_set1_ps(-0.0), a),
+    |a| _mm256_xor_ps(_mm256_set1_ps(-0.0), a),
+    |a, b| _mm256_cmp_ps::<_CMP_LT_OQ>(a, b),
+    |m, yes, no| _mm256_blendv_ps(no, yes, m),
+    |a| {
+        let bits = _mm256_castps_si256(_mm256_min_ps(a, _mm256_set1_ps(LARGEST_32)));
+        let exponent = _mm256_and_si256(bits, _mm256_set1_epi32(EXPONENT_32));
+        _mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(MIRROR_32), exponent))
+    },
+    gather_f32x8
+);
+row!(
+    F64x4,
+    __m256d,
+    f64,
+    4,
+    M64x4,
+    _mm256_set1_pd,
+    _mm256_add_pd,
+    _mm256_sub_pd,
+    _mm256_mul_pd,
+    _mm256_div_pd,
+    _mm256_sqrt_pd,
+    _mm256_min_pd,
+    _mm256_max_pd,
+    _mm256_loadu_pd,
+    _mm256_storeu_pd,
+    |a| _mm256_andnot_pd(_mm256_set1_pd(-0.0), a),
+    |a| _mm256_xor_pd(_mm256_set1_pd(-0.0), a),
+    |a, b| _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
+    |m, yes, no| _mm256_blendv_pd(no, yes, m),
+    |a| {
+        let bits = _mm256_castpd_si256(_mm256_min_pd(a, _mm256_set1_pd(LARGEST_64)));
+        let exponent = _mm256_and_si256(bits, _mm256_set1_epi64x(EXPONENT_64));
+        _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(MIRROR_64), exponent))
+    },
+    gather_f64x4
+);
+row!(
+    F32x16,
+    __m512,
+    f32,
+    16,
+    M32x16,
+    _mm512_set1_ps,
+    _mm512_add_ps,
+    _mm512_sub_ps,
+    _mm512_mul_ps,
+    _mm512_div_ps,
+    _mm512_sqrt_ps,
+    _mm512_min_ps,
+    _mm512_max_ps,
+    _mm512_loadu_ps,
+    _mm512_storeu_ps,
+    |a| _mm512_abs_ps(a),
+    |a| _mm512_xor_ps(_mm512_set1_ps(-0.0), a),
+    |a, b| _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b),
+    |m, yes, no| _mm512_mask_blend_ps(m, no, yes),
+    |a| {
+        let bits = _mm512_castps_si512(_mm512_min_ps(a, _mm512_set1_ps(LARGEST_32)));
+        let exponent = _mm512_and_si512(bits, _mm512_set1_epi32(EXPONENT_32));
+        _mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(MIRROR_32), exponent))
+    },
+    gather_f32x16
+);
+row!(
+    F64x8,
+    __m512d,
+    f64,
+    8,
+    M64x8,
+    _mm512_set1_pd,
+    _mm512_add_pd,
+    _mm512_sub_pd,
+    _mm512_mul_pd,
+    _mm512_div_pd,
+    _mm512_sqrt_pd,
+    _mm512_min_pd,
+    _mm512_max_pd,
+    _mm512_loadu_pd,
+    _mm512_storeu_pd,
+    |a| _mm512_abs_pd(a),
+    |a| _mm512_xor_pd(_mm512_set1_pd(-0.0), a),
+    |a, b| _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b),
+    |m, yes, no| _mm512_mask_blend_pd(m, no, yes),
+    |a| {
+        let bits = _mm512_castpd_si512(_mm512_min_pd(a, _mm512_set1_pd(LARGEST_64)));
+        let exponent = _mm512_and_si512(bits, _mm512_set1_epi64(EXPONENT_64));
+        _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64(MIRROR_64), exponent))
+    },
+    gather_f64x8
+);
+
+/// The address of point `index`.
+///
+/// # Safety
+/// The index is that of a point of the array.
+#[inline(always)]
+unsafe fn at<S>(base: *const u8, stride: usize, index: u32) -> *const S {
+    // SAFETY: inside the array, by the caller's word.
+    unsafe { base.add(index as usize * stride).cast() }
+}
+
+// SAFETY of the gathers: the caller of `Vector::gather` vouches that each index is followed by another point, so a
+// load of four scalars from its first coordinate stays inside the array.
+
+#[inline(always)]
+unsafe fn gather_f32x4(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m128, __m128, __m128) {
+    // SAFETY: see above.
+    unsafe {
+        let row = [
+            _mm_loadu_ps(at(base, stride, i[0])),
+            _mm_loadu_ps(at(base, stride, i[1])),
+            _mm_loadu_ps(at(base, stride, i[2])),
+            _mm_loadu_ps(at(base, stride, i[3])),
+        ];
+        let xy01 = _mm_unpacklo_ps(row[0], row[1]);
+        let z01 = _mm_unpackhi_ps(row[0], row[1]);
+        let xy23 = _mm_unpacklo_ps(row[2], row[3]);
+        let z23 = _mm_unpackhi_ps(row[2], row[3]);
+        (_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23))
+    }
+}
+
+/// Two points' first four scalars, in the two halves of a register.
+#[inline(always)]
+unsafe fn pair_f32(base: *const u8, stride: usize, low: u32, high: u32) -> __m256 {
+    // SAFETY: see above.
+    unsafe {
+        let low = _mm256_castps128_ps256(_mm_loadu_ps(at(base, stride, low)));
+        _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(at(base, stride, high)))
+    }
+}
+
+#[inline(always)]
+unsafe fn gather8_f32(base: *const u8, stride: usize, i: [u32; 8]) -> (__m256, __m256, __m256) {
+    // SAFETY: see above.
+    unsafe {
+        let row = [
+            pair_f32(base, stride, i[0], i[4]),
+            pair_f32(base, stride, i[1], i[5]),
+            pair_f32(base, stride, i[2], i[6]),
+            pair_f32(base, stride, i[3], i[7]),
+        ];
+        let xy01 = _mm256_unpacklo_ps(row[0], row[1]);
+        let z01 = _mm256_unpackhi_ps(row[0], row[1]);
+        let xy23 = _mm256_unpacklo_ps(row[2], row[3]);
+        let z23 = _mm256_unpackhi_ps(row[2], row[3]);
+        (
+            _mm256_shuffle_ps::<0x44>(xy01, xy23),
+            _mm256_shuffle_ps::<0xee>(xy01, xy23),
+            _mm256_shuffle_ps::<0x44>(z01, z23),
+        )
+    }
+}
+
+#[inline(always)]
+unsafe fn gather_f32x8(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m256, __m256, __m256) {
+    // SAFETY: see above.
+    unsafe { gather8_f32(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]) }
+}
+
+#[inline(always)]
+unsafe fn gather_f32x16(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m512, __m512, __m512) {
+    // SAFETY: see above.
+    unsafe {
+        let low = gather8_f32(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]);
+        let high = gather8_f32(base, stride, [i[8], i[9], i[10], i[11], i[12], i[13], i[14], i[15]]);
+        (join_f32(low.0, high.0), join_f32(low.1, high.1), join_f32(low.2, high.2))
+    }
+}
+
+#[inline(always)]
+unsafe fn join_f32(low: __m256, high: __m256) -> __m512 {
+    // SAFETY: register moves only.
+    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high) }
+}
+
+#[inline(always)]
+unsafe fn gather_f64x2(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m128d, __m128d, __m128d) {
+    // SAFETY: see above.
+    unsafe {
+        let (p, q): (*const f64, *const f64) = (at(base, stride, i[0]), at(base, stride, i[1]));
+        let (xy0, xy1) = (_mm_loadu_pd(p), _mm_loadu_pd(q));
+        let z = _mm_loadh_pd(_mm_load_sd(p.add(2)), q.add(2));
+        (_mm_unpacklo_pd(xy0, xy1), _mm_unpackhi_pd(xy0, xy1), z)
+    }
+}
+
+#[inline(always)]
+unsafe fn gather4_f64(base: *const u8, stride: usize, i: [u32; 4]) -> (__m256d, __m256d, __m256d) {
+    // SAFETY: see above.
+    unsafe {
+        let row = [
+            _mm256_loadu_pd(at(base, stride, i[0])),
+            _mm256_loadu_pd(at(base, stride, i[1])),
+            _mm256_loadu_pd(at(base, stride, i[2])),
+            _mm256_loadu_pd(at(base, stride, i[3])),
+        ];
+        let xz01 = _mm256_unpacklo_pd(row[0], row[1]);
+        let y01 = _mm256_unpackhi_pd(row[0], row[1]);
+        let xz23 = _mm256_unpacklo_pd(row[2], row[3]);
+        let y23 = _mm256_unpackhi_pd(row[2], row[3]);
+        (
+            _mm256_permute2f128_pd::<0x20>(xz01, xz23),
+            _mm256_permute2f128_pd::<0x20>(y01, y23),
+            _mm256_permute2f128_pd::<0x31>(xz01, xz23),
+        )
+    }
+}
+
+#[inline(always)]
+unsafe fn gather_f64x4(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m256d, __m256d, __m256d) {
+    // SAFETY: see above.
+    unsafe { gather4_f64(base, stride, [i[0], i[1], i[2], i[3]]) }
+}
+
+#[inline(always)]
+unsafe fn gather_f64x8(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m512d, __m512d, __m512d) {
+    // SAFETY: see above.
+    unsafe {
+        let low = gather4_f64(base, stride, [i[0], i[1], i[2], i[3]]);
+        let high = gather4_f64(base, stride, [i[4], i[5], i[6], i[7]]);
+        (join_f64(low.0, high.0), join_f64(low.1, high.1), join_f64(low.2, high.2))
+    }
+}
+
+#[inline(always)]
+unsafe fn join_f64(low: __m256d, high: __m256d) -> __m512d {
+    // SAFETY: register moves only.
+    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high) }
+}

@@ -1,0 +1,145 @@
+//! Normal, area and centroid of polygons, in `f64`.
+//!
+//! The area vector of the polygon `p₀ … pₙ₋₁` is `½ Σ (pₖ − p₀) × (pₖ₊₁ − p₀)`: relative to the polygon, so that
+//! nothing is lost far from the origin, and right for concave and for collinear corners. The centroid is that of the
+//! area, each triangle `(mean, pₖ, pₖ₊₁)` counted by its signed area along the normal, so it does not move when an
+//! edge is split. A polygon whose area vector cancels out has no normal. Cost: linear in the number of corners.
+
+use crate::error::{Error, filled};
+use crate::parallel;
+use crate::simd::Real;
+use crate::topology::Polygons;
+use crate::view::{Coordinate, Index, StridedPoints};
+use glam::DVec3;
+
+/// What a vertex needs to know of a polygon at one of its corners. Lengths, not areas, so that nothing overflows.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Frame {
+    /// Unit normal, or zero.
+    pub normal: DVec3,
+    /// The square root of the area.
+    pub size: f64,
+    /// From the first corner to the centroid, if it was asked for.
+    pub centroid: DVec3,
+}
+
+/// An area vector this much shorter than the root of the sum of squares it was added up from is rounding error.
+pub(crate) const CANCELLED: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// Corners relative to the first, in units of a power of two.
+struct Local<'a, S, I> {
+    points: &'a StridedPoints<'a, S>,
+    corners: &'a [I],
+    /// Applied to positions before they are subtracted; less than 1 only where differences overflow.
+    factor: f64,
+    /// Applied to differences.
+    scale: f64,
+}
+
+impl<S: Coordinate, I: Index> Local<'_, S, I> {
+    fn corner(&self, index: usize) -> DVec3 {
+        self.difference(index) * self.scale
+    }
+    fn difference(&self, index: usize) -> DVec3 {
+        let point = |index: usize| self.points.get(self.corners[index].widen() as usize) * self.factor;
+        point(index) - point(0)
+    }
+    fn extent(&self) -> f64 {
+        (1..self.corners.len()).fold(0.0, |extent, index| self.difference(index).abs().max_element().max(extent))
+    }
+}
+
+/// The frame of the polygon with the given corners.
+pub(crate) fn frame<S: Coordinate, I: Index>(points: &StridedPoints<'_, S>, corners: &[I], centroid: bool) -> Frame {
+    if corners.len() < 3 {
+        return Frame::default();
+    }
+    let mut local = Local { points, corners, factor: 1.0, scale: 1.0 };
+    let mut extent = local.extent();
+    if extent == f64::INFINITY {
+        local.factor = 0.25;
+        extent = local.extent();
+    }
+    local.scale = extent.inverse_power_of_two();
+    let (mut twice_area, mut squares) = (DVec3::ZERO, 0.0);
+    let mut previous = local.corner(1);
+    for index in 2..corners.len() {
+        let corner = local.corner(index);
+        let term = previous.cross(corner);
+        twice_area += term;
+        squares += term.length_squared();
+        previous = corner;
+    }
+    let length = twice_area.length();
+    if length <= CANCELLED * squares.sqrt() {
+        return Frame::default();
+    }
+    let normal = twice_area / length;
+    let centroid = if centroid { centroid_of(&local, normal) } else { DVec3::ZERO };
+    Frame {
+        normal,
+        size: ((0.5 * length).sqrt() / local.scale / local.factor).min(f64::MAX),
+        centroid: (centroid / local.scale / local.factor).clamp(DVec3::splat(-f64::MAX), DVec3::splat(f64::MAX)),
+    }
+}
+
+fn centroid_of<S: Coordinate, I: Index>(local: &Local<'_, S, I>, normal: DVec3) -> DVec3 {
+    let count = local.corners.len();
+    let mean = (1..count).map(|index| local.corner(index)).sum::<DVec3>() / count as f64;
+    let (mut moment, mut total) = (DVec3::ZERO, 0.0);
+    let mut previous = local.corner(count - 1) - mean;
+    for index in 0..count {
+        let corner = local.corner(index) - mean;
+        let signed = normal.dot(previous.cross(corner));
+        moment += (previous + corner) * signed;
+        total += signed;
+        previous = corner;
+    }
+    mean + moment / (3.0 * total)
+}
+
+/// The frames of all faces, or the means to compute each when it is met.
+pub(crate) struct Frames<'a, S> {
+    points: &'a StridedPoints<'a, S>,
+    polygons: &'a Polygons,
+    centroids: bool,
+    all: Option<Vec<Frame>>,
+}
+
+impl<'a, S: Coordinate> Frames<'a, S> {
+    /// Computes all frames at once, unless `few`: then the caller meets so few faces that each is better computed
+    /// where it is met. The frames are the same.
+    pub(crate) fn new(
+        points: &'a StridedPoints<'a, S>,
+        polygons: &'a Polygons,
+        centroids: bool,
+        few: bool,
+        threads: usize,
+    ) -> Result<Self, Error> {
+        let mut frames = Frames { points, polygons, centroids, all: None };
+        if !few {
+            let mut all = filled(polygons.face_count(), Frame::default())?;
+            parallel::fill(threads, &mut all, |face| frame(points, polygons.face(face), centroids));
+            frames.all = Some(all);
+        }
+        Ok(frames)
+    }
+
+    /// The frame of a face.
+    pub(crate) fn get(&self, face: usize) -> Frame {
+        match &self.all {
+            Some(all) => all[face],
+            None => frame(self.points, self.polygons.face(face), self.centroids),
+        }
+    }
+
+    /// [`Polygons::corner_faces`]
+    pub(crate) fn corner_faces(&self, entries: std::ops::Range<usize>) -> &[u32] {
+        self.polygons.corner_faces(entries)
+    }
+
+    /// The first corner of a face.
+    pub(crate) fn first_corner(&self, face: usize) -> u32 {
+        self.polygons.face(face)[0]
+    }
+}

@@ -1,0 +1,263 @@
+//! From faces to ordered one-rings in linear time, without hashing.
+//!
+//! 1. Every corner `prev, v, next` of a face becomes a record `(next, prev)` (and the face, where there are polygons)
+//!    in `v`'s stretch of a table: count, prefix sum, scatter.
+//! 2. Around `v`, the record that follows `(next, prev)` counter-clockwise is the one whose `next` is `prev`. Most
+//!    rings close after exactly as many steps as there are corners, which proves them one closed manifold fan. The
+//!    others go through [`FanBuilder`].
+//!
+//! A ring starts at the vertex's first corner in face order, so it depends on the order of faces and on nothing else.
+
+use super::fans::{FanBuilder, FanRecord};
+use super::polygons::Polygons;
+use super::stats::Defects;
+use super::{Topology, status};
+use crate::error::{Error, filled, reserved};
+use crate::view::{Faces, Index, MAX_LANE_CORNERS, RingClass, Rings, with_indices};
+
+/// Rings of more corners than this are sorted, not searched.
+const MAX_SCAN: usize = 64;
+
+/// A corner as its vertex sees it: the neighbour that follows in the face, the one before, and the face.
+pub(super) trait Record: Copy + Default {
+    /// `face` may be dropped.
+    fn new(next: u32, prev: u32, face: u32) -> Self;
+    /// The next corner of the face.
+    fn next(self) -> u32;
+    /// The previous corner of the face.
+    fn prev(self) -> u32;
+    /// The face, if it is kept.
+    fn face(self) -> Option<u32>;
+}
+
+impl Record for [u32; 2] {
+    #[inline(always)]
+    fn new(next: u32, prev: u32, _face: u32) -> Self {
+        [next, prev]
+    }
+    #[inline(always)]
+    fn next(self) -> u32 {
+        self[0]
+    }
+    #[inline(always)]
+    fn prev(self) -> u32 {
+        self[1]
+    }
+    #[inline(always)]
+    fn face(self) -> Option<u32> {
+        None
+    }
+}
+
+impl Record for [u32; 3] {
+    #[inline(always)]
+    fn new(next: u32, prev: u32, face: u32) -> Self {
+        [next, prev, face]
+    }
+    #[inline(always)]
+    fn next(self) -> u32 {
+        self[0]
+    }
+    #[inline(always)]
+    fn prev(self) -> u32 {
+        self[1]
+    }
+    #[inline(always)]
+    fn face(self) -> Option<u32> {
+        Some(self[2])
+    }
+}
+
+/// Faces as a stream of corners.
+trait Corners {
+    /// Calls `emit(vertex, next, prev, face)` for each corner of each face that is not ignored.
+    fn each(&self, emit: impl FnMut(u32, u32, u32, u32));
+}
+
+struct Triangles<'a, I>(&'a [I]);
+
+impl<I: Index> Corners for Triangles<'_, I> {
+    #[inline(always)]
+    fn each(&self, mut emit: impl FnMut(u32, u32, u32, u32)) {
+        for (face, corners) in self.0.chunks_exact(3).enumerate() {
+            let [a, b, c] = [corners[0], corners[1], corners[2]].map(|corner| corner.widen() as u32);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            emit(a, b, c, face as u32);
+            emit(b, c, a, face as u32);
+            emit(c, a, b, face as u32);
+        }
+    }
+}
+
+impl Corners for Polygons {
+    fn each(&self, mut emit: impl FnMut(u32, u32, u32, u32)) {
+        for face in 0..self.face_count() {
+            let corners = self.face(face);
+            let mut prev = corners.last().copied().unwrap_or(0);
+            for (index, &vertex) in corners.iter().enumerate() {
+                let next = corners.get(index + 1).copied().unwrap_or(corners[0]);
+                emit(vertex, next, prev, face as u32);
+                prev = vertex;
+            }
+        }
+    }
+}
+
+/// Builds the topology of faces whose indices are all below `vertex_count`.
+pub(super) fn build(faces: &Faces<'_>, vertex_count: usize) -> Result<Topology, Error> {
+    if faces.arity() == Some(3) {
+        let ordered = with_indices!(faces.indices(), indices => {
+            order::<[u32; 2]>(&Triangles(indices), indices.len(), vertex_count, None)?
+        });
+        let used = ordered.defects.corner_count / 3;
+        finish(ordered, None, faces.len(), used, faces.len() - used)
+    } else {
+        let (mut polygons, degenerate) = Polygons::new(faces)?;
+        let mut ordered = order::<[u32; 3]>(&polygons, polygons.corner_count(), vertex_count, Some(&polygons))?;
+        polygons.set_corner_faces(std::mem::take(&mut ordered.corner_faces));
+        let used = polygons.used_faces();
+        finish(ordered, Some(polygons), faces.len(), used, degenerate)
+    }
+}
+
+/// Ordered rings, not yet sorted for the sweep.
+struct Ordered {
+    offsets: Vec<u32>,
+    neighbours: Vec<u32>,
+    corner_faces: Vec<u32>,
+    flags: Vec<u8>,
+    /// The fans of every vertex that is not one closed fan found by the scan.
+    fans: Vec<FanRecord>,
+    defects: Defects,
+}
+
+fn order<R: Record>(
+    corners: &impl Corners,
+    capacity: usize,
+    vertex_count: usize,
+    polygons: Option<&Polygons>,
+) -> Result<Ordered, Error> {
+    let (mut offsets, mut records) = collect::<R>(corners, capacity, vertex_count)?;
+    let corner_count = offsets[vertex_count] as usize;
+    let mut builder = FanBuilder::new(polygons);
+    let mut neighbours: Vec<u32> = reserved(corner_count + corner_count / 64)?;
+    let mut corner_faces: Vec<u32> = reserved(if polygons.is_some() { neighbours.capacity() } else { 0 })?;
+    let mut flags = filled(vertex_count, 0u8)?;
+    let mut start = 0;
+    for vertex in 0..vertex_count {
+        // The offsets of corners become offsets of ring entries as they are used up.
+        let end = offsets[vertex + 1] as usize;
+        offsets[vertex] = neighbours.len() as u32;
+        let ring = &mut records[start..end];
+        start = end;
+        if ring.is_empty() {
+            flags[vertex] = status::ISOLATED;
+            continue;
+        }
+        if ring.len() <= MAX_SCAN && close_by_scan(ring) {
+            neighbours.try_reserve(ring.len())?;
+            neighbours.extend(ring.iter().map(|record| record.next()));
+            if polygons.is_some() {
+                corner_faces.try_reserve(ring.len())?;
+                corner_faces.extend(ring.iter().filter_map(|record| record.face()));
+            }
+        } else {
+            flags[vertex] = builder.add(vertex as u32, ring, &mut neighbours, &mut corner_faces)?;
+        }
+    }
+    offsets[vertex_count] = neighbours.len() as u32;
+    let (fans, mut defects) = builder.finish();
+    defects.corner_count = corner_count;
+    Ok(Ordered { offsets, neighbours, corner_faces, flags, fans, defects })
+}
+
+/// The records of all corners, by vertex and in face order within a vertex.
+fn collect<R: Record>(
+    corners: &impl Corners,
+    capacity: usize,
+    vertex_count: usize,
+) -> Result<(Vec<u32>, Vec<R>), Error> {
+    let mut offsets = filled(vertex_count + 1, 0u32)?;
+    let mut records = filled(capacity, R::default())?;
+    // While scattering, `offsets[v + 1]` is where the next record of `v` goes; at the end it is where `v` ends.
+    corners.each(|vertex, _, _, _| offsets[vertex as usize + 1] += 1);
+    let mut start = 0;
+    for offset in &mut offsets[1..] {
+        start += std::mem::replace(offset, start);
+    }
+    corners.each(|vertex, next, prev, face| {
+        let offset = &mut offsets[vertex as usize + 1];
+        records[*offset as usize] = R::new(next, prev, face);
+        *offset += 1;
+    });
+    Ok((offsets, records))
+}
+
+/// Puts a ring's records in counter-clockwise order, the first staying first; whether they close to a single fan.
+///
+/// The chain of records is followed by a map from neighbour to neighbour, so if it is back at the first neighbour
+/// after as many steps as there are records, and not before, it went through all of them.
+#[inline(always)]
+fn close_by_scan<R: Record>(records: &mut [R]) -> bool {
+    let first = records[0].next();
+    let mut wanted = records[0].prev();
+    for place in 1..records.len() {
+        if wanted == first {
+            return false;
+        }
+        let Some(found) = records[place..].iter().position(|record| record.next() == wanted) else {
+            return false;
+        };
+        records.swap(place, place + found);
+        wanted = records[place].prev();
+    }
+    wanted == first
+}
+
+fn finish(
+    ordered: Ordered,
+    polygons: Option<Polygons>,
+    face_count: usize,
+    used_faces: usize,
+    degenerate_faces: usize,
+) -> Result<Topology, Error> {
+    let Ordered { offsets, mut neighbours, flags, fans, defects, .. } = ordered;
+    if neighbours.capacity() - neighbours.len() > neighbours.len() / 16 {
+        neighbours.shrink_to_fit();
+    }
+    let mut rest = fans.as_slice();
+    let rings = Rings::new(offsets, neighbours, |vertex, entries| match take_fans(&mut rest, vertex) {
+        [] => (entries <= MAX_LANE_CORNERS).then_some((entries, true)),
+        [fan] => (fan.corners as usize <= MAX_LANE_CORNERS).then_some((fan.corners as usize, fan.closed)),
+        _ => None,
+    })?;
+    // Only vertices that the sweep takes one by one need their fans spelt out.
+    let mut rest = fans.as_slice();
+    let mut kept = Vec::new();
+    for vertex in 0..rings.vertex_count() {
+        let found = take_fans(&mut rest, vertex);
+        if rings.class(vertex) == RingClass::Alone {
+            kept.try_reserve(found.len().max(1))?;
+            match found {
+                [] => {
+                    let corners = rings.ring(vertex).len() as u32;
+                    kept.push(FanRecord { vertex: vertex as u32, corners, closed: true });
+                }
+                found => kept.extend_from_slice(found),
+            }
+        }
+    }
+    kept.shrink_to_fit();
+    let defects = Defects { face_count, used_faces, degenerate_faces, ..defects };
+    Ok(Topology { rings, flags, fans: kept, polygons, defects })
+}
+
+/// Splits off the fans of `vertex`, which come next if it has any.
+fn take_fans<'a>(rest: &mut &'a [FanRecord], vertex: usize) -> &'a [FanRecord] {
+    let count = rest.iter().take_while(|fan| fan.vertex as usize == vertex).count();
+    let (found, others) = rest.split_at(count);
+    *rest = others;
+    found
+}

@@ -1,0 +1,186 @@
+//! Topology: the one-rings of all vertices, built once from faces alone and reused while positions move.
+
+mod build;
+mod fans;
+mod polygons;
+mod stats;
+
+pub use stats::TopologyStats;
+
+pub(crate) use fans::NO_FACE;
+pub(crate) use polygons::Polygons;
+
+use crate::error::Error;
+use crate::view::{Faces, RingClass, Rings};
+use fans::FanRecord;
+
+/// Bits of a vertex's status byte. 0 is an ordinary interior vertex.
+pub mod status {
+    /// An edge at the vertex has only one face.
+    pub const BOUNDARY: u8 = 1;
+    /// The faces at the vertex do not form a single fan.
+    pub const NON_MANIFOLD: u8 = 2;
+    /// The two faces of an edge at the vertex run through it in the same direction.
+    pub const WINDING: u8 = 4;
+    /// No face uses the vertex; its results are zero.
+    pub const ISOLATED: u8 = 8;
+    /// The estimator had nothing to work with at the vertex, and a simpler one took its place.
+    pub const FALLBACK: u8 = 16;
+    /// Nothing at all could be computed; the results are zero.
+    pub const DEGENERATE: u8 = 32;
+}
+
+/// The one-rings of a mesh.
+///
+/// A *fan* is a run of faces around a vertex in which each shares an edge with the next, counter-clockwise. At an
+/// interior vertex the fan is closed, at a boundary vertex open; at a non-manifold vertex there are several. Faces are
+/// joined across an edge only where it has exactly two, and these run through it in opposite directions; every other
+/// edge ends the fans on both its sides.
+///
+/// Faces that name a vertex twice in a row lose the repetition; faces of fewer than three corners are ignored. Both
+/// are counted in [`TopologyStats`].
+#[derive(Debug)]
+pub struct Topology {
+    rings: Rings,
+    /// [`status`] bits that follow from the faces alone.
+    flags: Vec<u8>,
+    /// The fans of every vertex of [`RingClass::Alone`], by vertex.
+    fans: Vec<FanRecord>,
+    /// The faces, where there are others than triangles.
+    polygons: Option<Polygons>,
+    defects: stats::Defects,
+}
+
+/// One fan of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fan<'a> {
+    /// The neighbours in counter-clockwise order: `corner_count` of them in a closed fan, one more in an open one.
+    pub neighbours: &'a [u32],
+    /// The number of faces in the fan.
+    pub corner_count: usize,
+    /// Whether the last face meets the first.
+    pub closed: bool,
+    /// Where `neighbours` starts in the ring of the vertex.
+    pub(crate) start: usize,
+}
+
+/// The largest number of vertices; one less than the number of 32-bit values, which serve as indices.
+const MAX_VERTICES: u64 = u32::MAX as u64;
+
+impl Topology {
+    /// Builds the one-rings of `faces` over `vertex_count` vertices.
+    ///
+    /// Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices.
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`]; [`Error::TooLarge`] beyond 2³² − 1 vertices or ring entries;
+    /// [`Error::OutOfMemory`].
+    pub fn new(faces: &Faces<'_>, vertex_count: usize) -> Result<Self, Error> {
+        if vertex_count as u64 > MAX_VERTICES {
+            return Err(Error::TooLarge { what: "vertices", found: vertex_count as u64, limit: MAX_VERTICES });
+        }
+        let corner_count = faces.indices().len() as u64;
+        // An open fan has one entry more than corners, so there are at most twice as many entries.
+        if corner_count > u32::MAX as u64 / 2 {
+            return Err(Error::TooLarge { what: "corners", found: corner_count, limit: u32::MAX as u64 / 2 });
+        }
+        faces.indices().check_range("faces.indices", vertex_count)?;
+        build::build(faces, vertex_count)
+    }
+
+    /// The number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.flags.len()
+    }
+
+    /// The number of faces, ignored ones included.
+    pub fn face_count(&self) -> usize {
+        self.defects.face_count
+    }
+
+    /// The [`status`] bits of each vertex that follow from the faces alone.
+    pub fn flags(&self) -> &[u8] {
+        &self.flags
+    }
+
+    /// The neighbours of a vertex, fan after fan.
+    ///
+    /// # Panics
+    /// Where `vertex` is not below [`Topology::vertex_count`]; likewise below.
+    pub fn ring(&self, vertex: usize) -> &[u32] {
+        self.rings.ring(vertex)
+    }
+
+    /// The number of edges at a vertex.
+    pub fn valence(&self, vertex: usize) -> usize {
+        let ring = self.ring(vertex);
+        if self.rings.class(vertex) != RingClass::Alone {
+            return ring.len();
+        }
+        let mut neighbours = ring.to_vec();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        neighbours.len()
+    }
+
+    /// The number of fans of a vertex: 1 at a manifold vertex, 0 at an isolated one.
+    pub fn fan_count(&self, vertex: usize) -> usize {
+        match self.rings.class(vertex) {
+            RingClass::Isolated => 0,
+            RingClass::Lanes { .. } => 1,
+            RingClass::Alone => self.fan_records(vertex).len(),
+        }
+    }
+
+    /// The fans of a vertex.
+    pub fn fans(&self, vertex: usize) -> impl ExactSizeIterator<Item = Fan<'_>> {
+        (0..self.fan_count(vertex)).map(move |index| self.fan(vertex, index))
+    }
+
+    /// A fan of a vertex.
+    ///
+    /// # Panics
+    /// Where `index` is not below [`Topology::fan_count`].
+    pub fn fan(&self, vertex: usize, index: usize) -> Fan<'_> {
+        let ring = self.ring(vertex);
+        match self.rings.class(vertex) {
+            RingClass::Lanes { corners, closed } if index == 0 => {
+                Fan { neighbours: ring, corner_count: corners, closed, start: 0 }
+            }
+            RingClass::Alone => {
+                let records = self.fan_records(vertex);
+                let start: usize = records[..index].iter().map(FanRecord::entries).sum();
+                let fan = records[index];
+                Fan {
+                    neighbours: &ring[start..start + fan.entries()],
+                    corner_count: fan.corners as usize,
+                    closed: fan.closed,
+                    start,
+                }
+            }
+            _ => panic!("vertex {vertex} has no fan {index}"),
+        }
+    }
+
+    fn fan_records(&self, vertex: usize) -> &[FanRecord] {
+        let first = self.fans.partition_point(|fan| (fan.vertex as usize) < vertex);
+        let count = self.fans[first..].partition_point(|fan| fan.vertex as usize == vertex);
+        &self.fans[first..first + count]
+    }
+
+    /// Heap memory held, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.rings.bytes()
+            + self.flags.capacity()
+            + self.fans.capacity() * size_of::<FanRecord>()
+            + self.polygons.as_ref().map_or(0, Polygons::bytes)
+    }
+
+    pub(crate) fn rings(&self) -> &Rings {
+        &self.rings
+    }
+
+    pub(crate) fn polygons(&self) -> Option<&Polygons> {
+        self.polygons.as_ref()
+    }
+}

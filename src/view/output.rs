@@ -1,0 +1,190 @@
+//! Outputs: the caller's arrays, written element by element at any byte stride.
+
+use super::checked_stride;
+use crate::error::Error;
+use crate::simd::Real;
+use std::marker::PhantomData;
+use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
+
+// An f64 of the caller is stored through an atomic of 64 bits, which must not ask for more alignment.
+const _: () = assert!(align_of::<AtomicU64>() == align_of::<f64>() || cfg!(target_arch = "x86"));
+
+/// A borrowed array of `#V × 3` scalars to write, `f32` or `f64`, at any byte stride.
+///
+/// Stores are relaxed atomics (plain moves on every CPU), so that two threads that write the same value to the same
+/// element, as a list of vertices with repetitions makes them, are no data race.
+#[derive(Debug)]
+pub struct Output<'a> {
+    base: *mut u8,
+    count: usize,
+    stride: usize,
+    double: bool,
+    memory: PhantomData<&'a mut [u8]>,
+}
+
+// SAFETY: all writes are atomic stores into memory that the view borrows exclusively.
+unsafe impl Send for Output<'_> {}
+// SAFETY: as above.
+unsafe impl Sync for Output<'_> {}
+
+impl<'a> Output<'a> {
+    /// `count` elements of three `f32` from `data` on, `stride` bytes apart (0: packed).
+    ///
+    /// # Errors
+    /// [`Error::NullPointer`], [`Error::Stride`], [`Error::Misaligned`] or [`Error::Size`].
+    ///
+    /// # Safety
+    /// For the life of the view, the elements must lie in memory that may be written, and nobody else may read or
+    /// write them. Bytes between the elements may belong to anything.
+    pub unsafe fn from_raw_f32(data: *mut f32, count: usize, stride: usize) -> Result<Self, Error> {
+        let stride = checked_stride::<f32>("output", data as usize, count, stride, 3)?;
+        Self::new(data.cast(), count, stride, false)
+    }
+
+    /// As [`Output::from_raw_f32`], in double precision.
+    ///
+    /// # Errors
+    /// As [`Output::from_raw_f32`].
+    ///
+    /// # Safety
+    /// As [`Output::from_raw_f32`].
+    pub unsafe fn from_raw_f64(data: *mut f64, count: usize, stride: usize) -> Result<Self, Error> {
+        let stride = checked_stride::<f64>("output", data as usize, count, stride, 3)?;
+        Self::new(data.cast(), count, stride, true)
+    }
+
+    fn new(base: *mut u8, count: usize, stride: usize, double: bool) -> Result<Self, Error> {
+        if base.is_null() && count > 0 {
+            return Err(Error::NullPointer { what: "output.data" });
+        }
+        Ok(Output { base, count, stride, double, memory: PhantomData })
+    }
+
+    /// The number of elements.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Whether the scalars are `f64`.
+    pub fn is_double(&self) -> bool {
+        self.double
+    }
+
+    /// Writes an element; values beyond the scalar's range become its largest.
+    #[inline(always)]
+    pub(crate) fn write(&self, index: usize, value: [f64; 3]) {
+        if self.double {
+            self.write_double(index, value.map(|x| x.clamp(-f64::MAX, f64::MAX)));
+        } else {
+            self.write_single(index, value.map(|x| x.clamp(-f32::MAX as f64, f32::MAX as f64) as f32));
+        }
+    }
+
+    /// Writes an element in whatever precision a kernel works in.
+    #[inline(always)]
+    pub(crate) fn write_lane<S: Real>(&self, index: usize, value: [S; 3]) {
+        if S::SINGLE && !self.double {
+            self.write_single(index, value.map(|x| x.into() as f32));
+        } else {
+            self.write(index, value.map(Into::into));
+        }
+    }
+
+    #[inline(always)]
+    fn element(&self, index: usize) -> *mut u8 {
+        assert!(index < self.count, "output {index} of {}", self.count);
+        // SAFETY: in range, so inside the borrowed memory.
+        unsafe { self.base.add(index * self.stride) }
+    }
+
+    #[inline(always)]
+    fn write_single(&self, index: usize, value: [f32; 3]) {
+        let element = self.element(index).cast::<u32>();
+        for (axis, x) in value.into_iter().enumerate() {
+            // SAFETY: three aligned f32 start at the element, in memory that is ours to write.
+            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
+        }
+    }
+
+    #[inline(always)]
+    fn write_double(&self, index: usize, value: [f64; 3]) {
+        let element = self.element(index).cast::<u64>();
+        for (axis, x) in value.into_iter().enumerate() {
+            // SAFETY: three aligned f64 start at the element, in memory that is ours to write.
+            unsafe { AtomicU64::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
+        }
+    }
+}
+
+impl<'a> From<&'a mut [[f32; 3]]> for Output<'a> {
+    fn from(slice: &'a mut [[f32; 3]]) -> Self {
+        let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
+        Output { base, count, stride: size_of::<[f32; 3]>(), double: false, memory: PhantomData }
+    }
+}
+
+impl<'a> From<&'a mut [[f64; 3]]> for Output<'a> {
+    fn from(slice: &'a mut [[f64; 3]]) -> Self {
+        let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
+        Output { base, count, stride: size_of::<[f64; 3]>(), double: true, memory: PhantomData }
+    }
+}
+
+/// A borrowed array of `#V` status bytes to write, at any byte stride.
+#[derive(Debug)]
+pub struct StatusOutput<'a> {
+    base: *mut u8,
+    count: usize,
+    stride: usize,
+    memory: PhantomData<&'a mut [u8]>,
+}
+
+// SAFETY: all writes are atomic stores into memory that the view borrows exclusively.
+unsafe impl Send for StatusOutput<'_> {}
+// SAFETY: as above.
+unsafe impl Sync for StatusOutput<'_> {}
+
+impl<'a> StatusOutput<'a> {
+    /// `count` bytes from `data` on, `stride` bytes apart (0: packed).
+    ///
+    /// # Errors
+    /// [`Error::NullPointer`] or [`Error::Size`].
+    ///
+    /// # Safety
+    /// As [`Output::from_raw_f32`].
+    pub unsafe fn from_raw(data: *mut u8, count: usize, stride: usize) -> Result<Self, Error> {
+        let stride = checked_stride::<u8>("status", data as usize, count, stride, 1)?;
+        if data.is_null() && count > 0 {
+            return Err(Error::NullPointer { what: "status.data" });
+        }
+        Ok(StatusOutput { base: data, count, stride, memory: PhantomData })
+    }
+
+    /// The number of bytes.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    #[inline(always)]
+    pub(crate) fn write(&self, index: usize, status: u8) {
+        assert!(index < self.count, "status {index} of {}", self.count);
+        // SAFETY: in range, so inside the borrowed memory, which is ours to write.
+        unsafe { AtomicU8::from_ptr(self.base.add(index * self.stride)) }.store(status, Relaxed);
+    }
+}
+
+impl<'a> From<&'a mut [u8]> for StatusOutput<'a> {
+    fn from(slice: &'a mut [u8]) -> Self {
+        StatusOutput { base: slice.as_mut_ptr(), count: slice.len(), stride: 1, memory: PhantomData }
+    }
+}

@@ -1,0 +1,215 @@
+//! Positions: `#V × 3` scalars at any byte stride.
+
+use super::checked_stride;
+use crate::error::Error;
+use crate::simd::{Real, Vector};
+use glam::{DVec3, Vec3};
+use std::marker::PhantomData;
+
+/// Borrowed vertex positions, `#V × 3`, `f32` or `f64`, at any byte stride.
+#[derive(Clone, Copy, Debug)]
+pub struct Points<'a>(PointArray<'a>);
+
+/// Positions by scalar type.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum PointArray<'a> {
+    F32(StridedPoints<'a, f32>),
+    F64(StridedPoints<'a, f64>),
+}
+
+/// Positions of one scalar type.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StridedPoints<'a, S> {
+    base: *const u8,
+    count: usize,
+    stride: usize,
+    memory: PhantomData<&'a [S]>,
+}
+
+// SAFETY: a shared borrow of plain numbers.
+unsafe impl<S: Sync> Send for StridedPoints<'_, S> {}
+// SAFETY: as above; nothing is ever written through it.
+unsafe impl<S: Sync> Sync for StridedPoints<'_, S> {}
+
+/// A scalar that positions come in.
+pub(crate) trait Coordinate: Real {}
+impl Coordinate for f32 {}
+impl Coordinate for f64 {}
+
+impl<'a> Points<'a> {
+    /// Positions that start at `data` and lie `stride` bytes apart (0: packed), in single precision.
+    ///
+    /// # Errors
+    /// [`Error::Stride`], [`Error::Misaligned`] or [`Error::Size`] where the description cannot be right.
+    ///
+    /// # Safety
+    /// For the life of the view, the `count` points must lie in memory that may be read and that nobody writes.
+    /// `data` may be null or dangling when `count` is 0.
+    pub unsafe fn from_raw_f32(data: *const f32, count: usize, stride: usize) -> Result<Self, Error> {
+        // SAFETY: handed on.
+        unsafe { StridedPoints::new(data, count, stride) }.map(PointArray::F32).map(Points)
+    }
+
+    /// As [`Points::from_raw_f32`], in double precision.
+    ///
+    /// # Errors
+    /// As [`Points::from_raw_f32`].
+    ///
+    /// # Safety
+    /// As [`Points::from_raw_f32`].
+    pub unsafe fn from_raw_f64(data: *const f64, count: usize, stride: usize) -> Result<Self, Error> {
+        // SAFETY: handed on.
+        unsafe { StridedPoints::new(data, count, stride) }.map(PointArray::F64).map(Points)
+    }
+
+    pub(crate) fn array(&self) -> &PointArray<'a> {
+        &self.0
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        match &self.0 {
+            PointArray::F32(points) => points.count,
+            PointArray::F64(points) => points.count,
+        }
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The position of a vertex, as `f64`.
+    ///
+    /// # Panics
+    /// Where `vertex` is not below [`Points::len`].
+    pub fn get(&self, vertex: usize) -> DVec3 {
+        match &self.0 {
+            PointArray::F32(points) => points.get(vertex),
+            PointArray::F64(points) => points.get(vertex),
+        }
+    }
+
+    /// Finds the first position that is NaN or infinite.
+    ///
+    /// # Errors
+    /// [`Error::NonFinitePosition`].
+    pub(crate) fn check_finite(&self) -> Result<(), Error> {
+        match &self.0 {
+            PointArray::F32(points) => points.check_finite(),
+            PointArray::F64(points) => points.check_finite(),
+        }
+    }
+}
+
+impl<'a, S: Coordinate> StridedPoints<'a, S> {
+    /// # Safety
+    /// As [`Points::from_raw_f32`].
+    unsafe fn new(data: *const S, count: usize, stride: usize) -> Result<Self, Error> {
+        let stride = checked_stride::<S>("points", data as usize, count, stride, 3)?;
+        if data.is_null() && count > 0 {
+            return Err(Error::NullPointer { what: "points.data" });
+        }
+        Ok(StridedPoints { base: data.cast(), count, stride, memory: PhantomData })
+    }
+
+    /// The number of points.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The first byte, for [`Vector::gather`] with [`StridedPoints::stride`].
+    pub(crate) fn base(&self) -> *const u8 {
+        self.base
+    }
+
+    /// The bytes from a point to the next.
+    pub(crate) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// The three coordinates of a point.
+    #[inline(always)]
+    pub(crate) fn coordinates(&self, index: usize) -> [S; 3] {
+        assert!(index < self.count, "point {index} of {}", self.count);
+        // SAFETY: the index is in range, so the point lies in the borrowed memory.
+        unsafe { self.base.add(index * self.stride).cast::<[S; 3]>().read() }
+    }
+
+    /// A point as `f64`.
+    #[inline(always)]
+    pub(crate) fn get(&self, index: usize) -> DVec3 {
+        let [x, y, z] = self.coordinates(index);
+        DVec3::new(x.into(), y.into(), z.into())
+    }
+
+    fn check_finite(&self) -> Result<(), Error> {
+        // `0 × x` is 0 for a finite x and NaN otherwise; the sum of a block keeps that, without a branch a point.
+        const BLOCK: usize = 1024;
+        for start in (0..self.count).step_by(BLOCK) {
+            let block = start..self.count.min(start + BLOCK);
+            let mut sum = [S::ZERO; 3];
+            for index in block.clone() {
+                let point = self.coordinates(index);
+                for axis in 0..3 {
+                    sum[axis] = sum[axis] + point[axis] * S::ZERO;
+                }
+            }
+            if sum.iter().any(|sum| *sum != S::ZERO) {
+                let finite = |index: &usize| self.get(*index).is_finite();
+                let vertex = block.into_iter().find(|index| !finite(index)).unwrap_or(start) as u64;
+                return Err(Error::NonFinitePosition { vertex });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Points of any scalar type, loaded as lanes of another: the mixed case, one scalar at a time.
+#[inline(always)]
+pub(crate) fn gather_converted<V: Vector, S: Coordinate>(
+    points: &StridedPoints<'_, S>,
+    indices: &[u32; crate::simd::MAX_LANES],
+) -> crate::simd::Vector3<V> {
+    let mut lanes = [[V::Scalar::ZERO; crate::simd::MAX_LANES]; 3];
+    for lane in 0..V::LANES {
+        let point = points.coordinates(indices[lane] as usize);
+        for axis in 0..3 {
+            lanes[axis][lane] = V::Scalar::from_f64(point[axis].into());
+        }
+    }
+    crate::simd::Vector3::from_lanes(&lanes)
+}
+
+macro_rules! from_slices {
+    ($variant:ident, $scalar:ty, $vector:ty) => {
+        impl<'a> From<&'a [[$scalar; 3]]> for Points<'a> {
+            fn from(points: &'a [[$scalar; 3]]) -> Self {
+                Points(PointArray::$variant(StridedPoints {
+                    base: points.as_ptr().cast(),
+                    count: points.len(),
+                    stride: size_of::<[$scalar; 3]>(),
+                    memory: PhantomData,
+                }))
+            }
+        }
+        impl<'a> From<&'a [$vector]> for Points<'a> {
+            fn from(points: &'a [$vector]) -> Self {
+                Points(PointArray::$variant(StridedPoints {
+                    base: points.as_ptr().cast(),
+                    count: points.len(),
+                    stride: size_of::<$vector>(),
+                    memory: PhantomData,
+                }))
+            }
+        }
+        const _: () = assert!(size_of::<$vector>() == size_of::<[$scalar; 3]>());
+        impl<'a> From<&'a Vec<[$scalar; 3]>> for Points<'a> {
+            fn from(points: &'a Vec<[$scalar; 3]>) -> Self {
+                Points::from(points.as_slice())
+            }
+        }
+    };
+}
+from_slices!(F32, f32, Vec3);
+from_slices!(F64, f64, DVec3);

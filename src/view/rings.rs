@@ -1,0 +1,324 @@
+//! The one-rings of all vertices in one flat array, sorted for the sweep, and the loader that turns a block of them into
+//! lanes of edges.
+//!
+//! The table is checked when it is made and never changes. That is what lets [`Rings::load_edges`] read positions
+//! without a bounds check per neighbour, with loads that run one scalar past the third coordinate: a vertex gets a
+//! [`RingClass`] for lanes only if its ring lies inside the table and holds no index that a wide load could carry past
+//! the caller's buffer (that is, not the last vertex's).
+
+use super::points::{Coordinate, StridedPoints, gather_converted};
+use crate::error::{Error, filled, reserved};
+use crate::simd::{MAX_LANES, Vector, Vector3};
+use std::any::TypeId;
+
+/// Rings of more corners than this go vertex by vertex.
+pub(crate) const MAX_LANE_CORNERS: usize = 16;
+
+/// Vertices are sorted by class inside windows of this many, so that lanes fill up while memory stays local.
+pub(crate) const WINDOW: usize = 2048;
+
+/// How the sweep treats a vertex.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum RingClass {
+    /// No face: nothing to compute.
+    Isolated,
+    /// One fan of `corners` corners, computed in lanes with others of the same class.
+    Lanes {
+        /// Corners of the fan, at most [`MAX_LANE_CORNERS`].
+        corners: usize,
+        /// Whether the last corner meets the first.
+        closed: bool,
+    },
+    /// Several fans, a large one, or one that touches the last vertex: computed alone.
+    Alone,
+}
+
+/// Up to [`WINDOW`] vertices, sorted by class.
+pub(crate) struct Batch {
+    vertices: [u32; WINDOW],
+    slices: [Slice; CLASSES],
+    count: usize,
+    slice_count: usize,
+}
+
+impl Batch {
+    pub(crate) fn new() -> Self {
+        Batch { vertices: [0; WINDOW], slices: [Slice { first: 0, class: 0 }; CLASSES], count: 0, slice_count: 0 }
+    }
+
+    /// How many classes occur.
+    #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.slice_count
+    }
+
+    /// A class and its vertices.
+    #[inline(always)]
+    pub(crate) fn get(&self, index: usize) -> (RingClass, &[u32]) {
+        let slices = &self.slices[..self.slice_count];
+        let end = slices.get(index + 1).map_or(self.count, |next| next.first as usize);
+        (RingClass::from_code(slices[index].class), &self.vertices[slices[index].first as usize..end])
+    }
+}
+
+const CLASSES: usize = 2 * MAX_LANE_CORNERS + 2;
+const ALONE: u8 = CLASSES as u8 - 1;
+
+impl RingClass {
+    fn code(self) -> u8 {
+        match self {
+            RingClass::Isolated => 0,
+            RingClass::Lanes { corners, closed } => (2 * corners - closed as usize) as u8,
+            RingClass::Alone => ALONE,
+        }
+    }
+
+    fn from_code(code: u8) -> Self {
+        match code {
+            0 => RingClass::Isolated,
+            ALONE => RingClass::Alone,
+            code => RingClass::Lanes { corners: (code as usize).div_ceil(2), closed: code % 2 == 1 },
+        }
+    }
+}
+
+/// A run of vertices of one class in a window's order.
+#[derive(Clone, Copy, Debug)]
+struct Slice {
+    /// The first, counted from the window's start.
+    first: u16,
+    class: u8,
+}
+
+/// Flat one-rings: vertex `v` has the neighbours `neighbours[offsets[v]..offsets[v + 1]]`, fan after fan, each
+/// counter-clockwise. A fan of `k` corners has `k` neighbours if it is closed and `k + 1` if it is open.
+#[derive(Debug)]
+pub(crate) struct Rings {
+    offsets: Vec<u32>,
+    neighbours: Vec<u32>,
+    /// [`RingClass::code`] of each vertex.
+    classes: Vec<u8>,
+    /// Window after window, the vertices by class, counted from the window's start.
+    order: Vec<u16>,
+    slices: Vec<Slice>,
+    /// Where each window's slices start, and the end of the last.
+    window_slices: Vec<u32>,
+}
+
+impl Rings {
+    /// Checks and sorts. `fan_class(v, entries)`, called for the vertices in order, says for a vertex with a single fan
+    /// of at most [`MAX_LANE_CORNERS`] corners how many they are and whether the fan is closed, and `None` for every
+    /// other vertex.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    ///
+    /// # Panics
+    /// If the table is not one: offsets that do not fit the neighbours, or a neighbour that is no vertex.
+    pub(crate) fn new(
+        offsets: Vec<u32>,
+        neighbours: Vec<u32>,
+        mut fan_class: impl FnMut(usize, usize) -> Option<(usize, bool)>,
+    ) -> Result<Self, Error> {
+        let vertex_count = offsets.len() - 1;
+        assert_eq!(offsets[vertex_count] as usize, neighbours.len());
+        let last = vertex_count.wrapping_sub(1) as u32;
+        let mut classes = filled(vertex_count, 0u8)?;
+        for (vertex, class) in classes.iter_mut().enumerate() {
+            let ring = &neighbours[offsets[vertex] as usize..offsets[vertex + 1] as usize];
+            let largest = ring.iter().fold(0, |largest, &neighbour| largest.max(neighbour));
+            assert!(ring.is_empty() || largest <= last, "neighbour {largest} of vertex {vertex}");
+            *class = match fan_class(vertex, ring.len()) {
+                _ if ring.is_empty() => RingClass::Isolated,
+                Some((corners, closed)) if largest < last && vertex as u32 != last => {
+                    assert_eq!(ring.len(), corners + !closed as usize);
+                    RingClass::Lanes { corners, closed }
+                }
+                _ => RingClass::Alone,
+            }
+            .code();
+        }
+        let windows = vertex_count.div_ceil(WINDOW);
+        let mut order = filled(vertex_count, 0u16)?;
+        let mut slices = reserved(windows * 4)?;
+        let mut window_slices = reserved(windows + 1)?;
+        for (window, codes) in classes.chunks(WINDOW).enumerate() {
+            window_slices.push(slices.len() as u32);
+            slices.try_reserve(CLASSES)?;
+            let sorted = &mut order[window * WINDOW..][..codes.len()];
+            bucket(codes, |place, index| sorted[place] = index as u16, |slice| slices.push(slice));
+        }
+        window_slices.push(slices.len() as u32);
+        slices.shrink_to_fit();
+        Ok(Rings { offsets, neighbours, classes, order, slices, window_slices })
+    }
+
+    pub(crate) fn vertex_count(&self) -> usize {
+        self.classes.len()
+    }
+
+    /// All neighbours of a vertex, fan after fan.
+    #[inline(always)]
+    pub(crate) fn ring(&self, vertex: usize) -> &[u32] {
+        &self.neighbours[self.ring_range(vertex)]
+    }
+
+    /// Where [`Rings::ring`] stands in the flat array.
+    #[inline(always)]
+    pub(crate) fn ring_range(&self, vertex: usize) -> std::ops::Range<usize> {
+        self.offsets[vertex] as usize..self.offsets[vertex + 1] as usize
+    }
+
+    /// The length of the flat array.
+    pub(crate) fn entry_count(&self) -> usize {
+        self.neighbours.len()
+    }
+
+    pub(crate) fn class(&self, vertex: usize) -> RingClass {
+        RingClass::from_code(self.classes[vertex])
+    }
+
+    /// Heap memory held, in bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.offsets.capacity() * 4
+            + self.neighbours.capacity() * 4
+            + self.classes.capacity()
+            + self.order.capacity() * 2
+            + self.slices.capacity() * size_of::<Slice>()
+            + self.window_slices.capacity() * 4
+    }
+
+    /// How many windows the vertices fill.
+    pub(crate) fn windows(&self) -> usize {
+        self.window_slices.len() - 1
+    }
+
+    /// Puts the vertices of a window into `batch`.
+    pub(crate) fn fill_window(&self, window: usize, batch: &mut Batch) {
+        let start = window * WINDOW;
+        let codes = &self.classes[start..self.classes.len().min(start + WINDOW)];
+        batch.count = codes.len();
+        for (vertex, offset) in batch.vertices.iter_mut().zip(&self.order[start..][..codes.len()]) {
+            *vertex = start as u32 + *offset as u32;
+        }
+        let slices = &self.slices[self.window_slices[window] as usize..self.window_slices[window + 1] as usize];
+        batch.slice_count = slices.len();
+        batch.slices[..slices.len()].copy_from_slice(slices);
+    }
+
+    /// As [`Rings::fill_window`] for at most [`WINDOW`] vertices of the caller's choice.
+    ///
+    /// # Panics
+    /// Where one of them is no vertex, or there are more.
+    pub(crate) fn fill_list(&self, list: &[u32], batch: &mut Batch) {
+        let mut codes = [0u8; WINDOW];
+        let codes = &mut codes[..list.len()];
+        for (code, &vertex) in codes.iter_mut().zip(list) {
+            *code = self.classes[vertex as usize];
+        }
+        let Batch { vertices, slices, count, slice_count } = batch;
+        (*count, *slice_count) = (list.len(), 0);
+        bucket(
+            codes,
+            |place, index| vertices[place] = list[index],
+            |slice| {
+                slices[*slice_count] = slice;
+                *slice_count += 1;
+            },
+        );
+    }
+
+    /// Loads the edges from up to `V::LANES` vertices of one class to their neighbours, lane by lane.
+    ///
+    /// `edges[j]` becomes the vectors to the `j`-th neighbours, `j = 0 … corners`; in a closed fan the last repeats the
+    /// first. The lanes beyond `vertices` repeat its first.
+    ///
+    /// # Panics
+    /// Where a vertex is not of the class `Lanes { corners, closed }`, or `points` are fewer than the vertices.
+    #[inline(always)]
+    pub(crate) fn load_edges<V: Vector, S: Coordinate>(
+        &self,
+        points: &StridedPoints<'_, S>,
+        vertices: &[u32],
+        corners: usize,
+        closed: bool,
+        edges: &mut [Vector3<V>],
+    ) {
+        assert!(points.len() >= self.vertex_count() && !vertices.is_empty() && vertices.len() <= V::LANES);
+        let class = RingClass::Lanes { corners, closed }.code();
+        let edges = &mut edges[..corners + 1];
+        let mut centres = [vertices[0]; MAX_LANES];
+        centres[..vertices.len()].copy_from_slice(vertices);
+        let mut starts = [0u32; MAX_LANES];
+        for lane in 0..V::LANES {
+            let vertex = centres[lane] as usize;
+            assert_eq!(self.classes[vertex], class);
+            starts[lane] = self.offsets[vertex];
+        }
+        let neighbour_count = corners + !closed as usize;
+        // SAFETY: each of these vertices was seen in `new` to be of this class: the vertex itself and its
+        // `neighbour_count` neighbours from `starts` on are inside the tables and are vertices other than the last.
+        unsafe {
+            let centre = gather::<V, S>(points, &centres);
+            for (slot, edge) in edges[..neighbour_count].iter_mut().enumerate() {
+                let mut indices = [0u32; MAX_LANES];
+                for lane in 0..V::LANES {
+                    indices[lane] = *self.neighbours.get_unchecked(starts[lane] as usize + slot);
+                }
+                *edge = gather::<V, S>(points, &indices) - centre;
+            }
+        }
+        if closed {
+            edges[corners] = edges[0];
+        }
+    }
+
+    /// The vectors from a vertex to `ring`, each point multiplied by `factor` first; one lane, any number.
+    pub(crate) fn edges_of<S: Coordinate>(
+        points: &StridedPoints<'_, S>,
+        vertex: usize,
+        ring: &[u32],
+        factor: f64,
+        edges: &mut Vec<Vector3<f64>>,
+    ) {
+        let centre = points.get(vertex) * factor;
+        edges.extend(ring.iter().map(|&neighbour| {
+            let edge = points.get(neighbour as usize) * factor - centre;
+            Vector3 { x: edge.x, y: edge.y, z: edge.z }
+        }));
+    }
+}
+
+/// # Safety
+/// As [`Vector::gather`], for the points' scalar.
+#[inline(always)]
+unsafe fn gather<V: Vector, S: Coordinate>(points: &StridedPoints<'_, S>, indices: &[u32; MAX_LANES]) -> Vector3<V> {
+    if TypeId::of::<V::Scalar>() == TypeId::of::<S>() {
+        // SAFETY: handed on; the lanes are of the points' own scalar.
+        unsafe { V::gather(points.base(), points.stride(), indices) }
+    } else {
+        gather_converted(points, indices)
+    }
+}
+
+/// Counting sort by class: `place(position, index)` for every index, and `open` for each class that occurs.
+#[inline(always)]
+fn bucket(codes: &[u8], mut place: impl FnMut(usize, usize), mut open: impl FnMut(Slice)) {
+    let mut starts = [0usize; CLASSES];
+    for &code in codes {
+        starts[code as usize] += 1;
+    }
+    let mut position = 0;
+    for (class, start) in starts.iter_mut().enumerate() {
+        let count = std::mem::replace(start, position);
+        if count > 0 {
+            open(Slice { first: position as u16, class: class as u8 });
+        }
+        position += count;
+    }
+    for (index, &code) in codes.iter().enumerate() {
+        let start = &mut starts[code as usize];
+        place(*start, index);
+        *start += 1;
+    }
+}
