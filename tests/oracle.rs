@@ -183,11 +183,9 @@ fn normals_from_faces_agree_with_those_of_a_topology() {
                 )
             };
             assert_eq!(status, UMB_OK);
-            let conditions: Vec<f64> = (0..mesh.positions.len())
-                .map(|v| oracle.normal(v, Weight::ALL[weight as usize]).condition)
-                .collect();
-            let (difference, vertex) =
-                worst(&found, |v| swept.normal[v], |v| conditions[v] < CONDITION_DOUBLE);
+            let conditions: Vec<f64> =
+                (0..mesh.positions.len()).map(|v| oracle.normal(v, Weight::ALL[weight as usize]).condition).collect();
+            let (difference, vertex) = worst(&found, |v| swept.normal[v], |v| conditions[v] < CONDITION_DOUBLE);
             assert!(difference <= 1e-13, "{}, weight {weight}, vertex {vertex}: {difference:e}", mesh.name);
         }
     }

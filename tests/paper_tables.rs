@@ -58,7 +58,8 @@ fn table_2_in_the_figures_of_the_verification() {
     // The paper's order of rows holds at every level.
     for level in 2..=5 {
         let mesh = tetrahedron_sphere(level);
-        let order = [UMB_WEIGHT_CONFORMAL, UMB_WEIGHT_CENTROID, UMB_WEIGHT_ANGLE, UMB_WEIGHT_UNIFORM, UMB_WEIGHT_AREA];
+        let order =
+            [UMB_WEIGHT_CONFORMAL, UMB_WEIGHT_CENTROID, UMB_WEIGHT_ANGLE, UMB_WEIGHT_UNIFORM, UMB_WEIGHT_AREA];
         let errors = order.map(|weight| error(&mesh, weight));
         assert!(errors.windows(2).all(|pair| pair[0] < pair[1]), "level {level}: {errors:?}");
     }

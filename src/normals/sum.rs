@@ -42,6 +42,8 @@ impl<V: Vector> Sum<V> {
         let squared = self.vector.squared();
         let least = if V::Scalar::SINGLE { TRUSTED_SINGLE } else { CANCELLED * CANCELLED };
         let trusted = (self.spread * V::constant(least)).lt(squared);
-        (trusted.and(squared.lt(V::splat(V::Scalar::INFINITY))), squared)
+        // Nearer the ends of the range, the square has lost digits that the root would need.
+        let in_range = V::splat(V::Scalar::TINY).lt(squared).and(squared.lt(V::splat(V::Scalar::INFINITY)));
+        (trusted.and(in_range), squared)
     }
 }

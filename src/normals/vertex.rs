@@ -113,7 +113,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
     ) -> u32 {
         let sum = E::sum(ring, scratch);
         let (trusted, squared) = sum.trusted();
-        let normal = sum.vector * (V::one() / squared.sqrt());
+        let normal = sum.vector.divided_by(squared.sqrt());
         let trusted = trusted.bits();
         if let Some(output) = &self.outputs.normal {
             let lanes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
@@ -216,7 +216,7 @@ fn any_face<F: RingFaces<f64>>(fans: &[Ring<'_, f64, F>], scale: f64) -> Option<
 
 pub(super) fn unit(sum: &Sum<f64>) -> Option<[f64; 3]> {
     let (trusted, squared) = sum.trusted();
-    let normal = sum.vector * (1.0 / squared.sqrt());
+    let normal = sum.vector.divided_by(squared.sqrt());
     trusted.then_some([normal.x, normal.y, normal.z])
 }
 

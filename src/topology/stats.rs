@@ -102,18 +102,18 @@ impl Topology {
         for (vertex, parent) in parents.iter_mut().enumerate() {
             *parent = vertex as u32;
         }
-        let mut components = 0;
+        let (mut used, mut joined) = (0, 0);
         for vertex in 0..self.vertex_count() {
-            components += !self.ring(vertex).is_empty() as usize;
+            used += !self.ring(vertex).is_empty() as usize;
             for &neighbour in self.ring(vertex) {
                 let (a, b) = (root(&mut parents, vertex as u32), root(&mut parents, neighbour));
                 if a != b {
                     parents[a.max(b) as usize] = a.min(b);
-                    components -= 1;
+                    joined += 1;
                 }
             }
         }
-        Ok(components)
+        Ok(used - joined)
     }
 
     /// An open fan that ends at a boundary edge is followed, across that edge, by the open fan of the neighbour that

@@ -69,8 +69,7 @@ impl Handle {
     pub fn of(faces: &umb_faces, vertex_count: usize) -> Handle {
         let mut handle = std::ptr::null_mut();
         let mut error: umb_error = zeroed();
-        let status =
-            unsafe { umb_topology_create(faces, vertex_count, std::ptr::null(), &mut handle, &mut error) };
+        let status = unsafe { umb_topology_create(faces, vertex_count, std::ptr::null(), &mut handle, &mut error) };
         assert_eq!(status, UMB_OK, "{}", message(&error));
         Handle(handle)
     }

@@ -87,11 +87,8 @@ pub fn ring_sphere(segments: usize, rings: usize) -> Mesh {
 /// A tetrahedron, each triangle cut in four and the midpoints pushed to the unit sphere, `levels` times.
 pub fn tetrahedron_sphere(levels: usize) -> Mesh {
     let positions = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(unit).to_vec();
-    let mut mesh = Mesh::new(
-        "tetrahedron sphere",
-        positions,
-        vec![vec![0, 1, 2], vec![0, 2, 3], vec![0, 3, 1], vec![1, 3, 2]],
-    );
+    let mut mesh =
+        Mesh::new("tetrahedron sphere", positions, vec![vec![0, 1, 2], vec![0, 2, 3], vec![0, 3, 1], vec![1, 3, 2]]);
     for _ in 0..levels {
         mesh = subdivided(&mesh, unit);
     }

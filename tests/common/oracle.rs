@@ -180,9 +180,8 @@ impl<'a> Oracle<'a> {
         if face.len() == 3 {
             return sine;
         }
-        let longest = face.iter().fold(0.0, |longest: f64, &p| {
-            longest.max(length(sub(self.point(p), self.point(face[0]))))
-        });
+        let longest =
+            face.iter().fold(0.0, |longest: f64, &p| longest.max(length(sub(self.point(p), self.point(face[0])))));
         length(self.area_vector(corner.face)) / (longest * longest)
     }
 
@@ -231,11 +230,7 @@ impl<'a> Oracle<'a> {
 
 /// The largest difference between two normals' components, and the vertex where it is, over the vertices that `keep`
 /// lets through.
-pub fn worst(
-    found: &[Vector],
-    expected: impl Fn(usize) -> Vector,
-    keep: impl Fn(usize) -> bool,
-) -> (f64, usize) {
+pub fn worst(found: &[Vector], expected: impl Fn(usize) -> Vector, keep: impl Fn(usize) -> bool) -> (f64, usize) {
     (0..found.len()).filter(|&vertex| keep(vertex)).fold((0.0, 0), |worst, vertex| {
         let difference = largest_difference(found[vertex], expected(vertex));
         if difference > worst.0 || difference.is_nan() { (difference, vertex) } else { worst }

@@ -9,10 +9,8 @@ pub fn meshes() -> Vec<Mesh> {
     let Some(folder) = std::env::var_os("UMBILIC_MESHES") else { return vec![] };
     let list = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers/meshes.txt")).unwrap();
     let names = list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let meshes: Vec<Mesh> = names
-        .filter(|name| name.ends_with(".off"))
-        .map(|name| read(&Path::new(&folder).join(name)))
-        .collect();
+    let meshes: Vec<Mesh> =
+        names.filter(|name| name.ends_with(".off")).map(|name| read(&Path::new(&folder).join(name))).collect();
     assert!(meshes.len() >= 10, "{} meshes in {}", meshes.len(), Path::new(&folder).display());
     meshes
 }

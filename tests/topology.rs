@@ -1,0 +1,207 @@
+//! One-rings, counts and defects.
+
+mod common;
+use common::capi::Handle;
+use common::mesh::{self, Mesh, letter_prism, ring_sphere, soup, torus};
+use common::oracle::cleaned;
+use std::collections::{HashMap, HashSet};
+use umbilic::capi::*;
+
+fn fans(handle: &Handle, vertex: usize) -> Vec<(Vec<u32>, usize, bool)> {
+    let (mut count, error) = (0, std::ptr::null_mut());
+    assert_eq!(unsafe { umb_topology_fan_count(handle.0, vertex, &mut count, error) }, UMB_OK);
+    (0..count)
+        .map(|index| {
+            let mut fan: umb_fan = common::capi::zeroed();
+            assert_eq!(unsafe { umb_topology_fan(handle.0, vertex, index, &mut fan, error) }, UMB_OK);
+            let neighbours = unsafe { std::slice::from_raw_parts(fan.neighbours, fan.neighbour_count) };
+            (neighbours.to_vec(), fan.corner_count, fan.closed == 1)
+        })
+        .collect()
+}
+
+fn flags(handle: &Handle) -> Vec<u8> {
+    unsafe {
+        let count = umb_topology_vertex_count(handle.0);
+        std::slice::from_raw_parts(umb_topology_flags(handle.0), count).to_vec()
+    }
+}
+
+#[test]
+fn a_closed_mesh() {
+    let mesh = ring_sphere(8, 5);
+    let handle = Handle::new(&mesh);
+    let stats = handle.stats();
+    assert_eq!((stats.vertex_count, stats.face_count, stats.edge_count), (42, 80, 120));
+    assert_eq!(stats.euler_characteristic, 2);
+    assert_eq!((stats.component_count, stats.boundary_loops, stats.max_valence), (1, 0, 8));
+    assert!(flags(&handle).iter().all(|flags| *flags == 0));
+    // The ring of the north pole, counter-clockwise from its first face on.
+    assert_eq!(fans(&handle, 0), [(vec![1, 2, 3, 4, 5, 6, 7, 8], 8, true)]);
+    assert_eq!(Handle::new(&torus(12, 7, 0.1, 0.5, 1)).stats().euler_characteristic, 0);
+    assert_eq!(Handle::new(&letter_prism()).stats().euler_characteristic, 2);
+}
+
+#[test]
+fn an_open_mesh_with_two_loops() {
+    // A square ring of four quads.
+    let positions = vec![[0.0; 3]; 8];
+    let faces = vec![vec![0, 1, 5, 4], vec![1, 2, 6, 5], vec![2, 3, 7, 6], vec![3, 0, 4, 7]];
+    let handle = Handle::new(&Mesh::new("frame", positions, faces));
+    let stats = handle.stats();
+    assert_eq!((stats.boundary_loops, stats.boundary_edges, stats.boundary_vertices), (2, 8, 8));
+    assert_eq!((stats.edge_count, stats.euler_characteristic, stats.component_count), (12, 0, 1));
+    assert_eq!(fans(&handle, 0), [(vec![1, 4, 3], 2, false)]);
+}
+
+#[test]
+fn two_fans_at_a_vertex() {
+    // Two tetrahedra that share a vertex; and two triangles that do.
+    let tetrahedron = |a: u32, b, c, d| vec![vec![a, b, c], vec![a, c, d], vec![a, d, b], vec![b, d, c]];
+    let faces = [tetrahedron(0, 1, 2, 3), tetrahedron(0, 4, 5, 6)].concat();
+    let handle = Handle::new(&Mesh::new("hourglass", vec![[0.0; 3]; 7], faces));
+    assert_eq!(fans(&handle, 0), [(vec![1, 2, 3], 3, true), (vec![4, 5, 6], 3, true)]);
+    let stats = handle.stats();
+    assert_eq!((stats.non_manifold_vertices, stats.non_manifold_edges, stats.boundary_edges), (1, 0, 0));
+    assert_eq!(flags(&handle)[0], UMB_VERTEX_NON_MANIFOLD);
+    let handle = Handle::new(&Mesh::new("bow tie", vec![[0.0; 3]; 5], vec![vec![0, 1, 2], vec![0, 3, 4]]));
+    assert_eq!(fans(&handle, 0), [(vec![1, 2], 1, false), (vec![3, 4], 1, false)]);
+    assert_eq!(flags(&handle)[0], UMB_VERTEX_NON_MANIFOLD | UMB_VERTEX_BOUNDARY);
+    assert_eq!(handle.stats().boundary_loops, 1);
+}
+
+#[test]
+fn an_edge_with_three_faces() {
+    let faces = vec![vec![0, 1, 2], vec![1, 0, 3], vec![0, 1, 4]];
+    let handle = Handle::new(&Mesh::new("book", vec![[0.0; 3]; 5], faces));
+    let stats = handle.stats();
+    assert_eq!((stats.non_manifold_edges, stats.boundary_edges, stats.edge_count), (1, 6, 7));
+    assert_eq!(fans(&handle, 0).len(), 3);
+    assert_eq!(flags(&handle)[0], UMB_VERTEX_NON_MANIFOLD | UMB_VERTEX_BOUNDARY);
+    let mut valence = 0;
+    assert_eq!(unsafe { umb_topology_valence(handle.0, 0, &mut valence, std::ptr::null_mut()) }, UMB_OK);
+    assert_eq!(valence, 4);
+}
+
+#[test]
+fn inconsistent_winding() {
+    let handle = Handle::new(&Mesh::new("flipped", vec![[0.0; 3]; 4], vec![vec![0, 1, 2], vec![0, 3, 2]]));
+    let stats = handle.stats();
+    assert_eq!((stats.winding_edges, stats.boundary_edges, stats.non_manifold_edges), (1, 4, 0));
+    let both = UMB_VERTEX_WINDING | UMB_VERTEX_NON_MANIFOLD | UMB_VERTEX_BOUNDARY;
+    assert_eq!(flags(&handle), [both, UMB_VERTEX_BOUNDARY, both, UMB_VERTEX_BOUNDARY]);
+}
+
+#[test]
+fn duplicate_degenerate_and_short_faces() {
+    let faces = vec![vec![0, 1, 2], vec![1, 2, 0], vec![2, 1, 3], vec![0, 0, 3], vec![1, 2, 1]];
+    let stats = Handle::new(&Mesh::new("triangles", vec![[0.0; 3]; 5], faces)).stats();
+    assert_eq!((stats.duplicate_faces, stats.degenerate_faces, stats.ignored_faces), (1, 2, 2));
+    assert_eq!((stats.isolated_vertices, stats.corner_count, stats.face_count), (1, 9, 5));
+    let faces = vec![
+        vec![0, 1, 2, 3],
+        vec![2, 3, 0, 1],
+        vec![0, 1, 2, 4],
+        vec![0, 1, 1, 4],
+        vec![0, 4],
+        vec![],
+        vec![3, 3, 3, 3],
+    ];
+    let stats = Handle::new(&Mesh::new("polygons", vec![[0.0; 3]; 5], faces)).stats();
+    assert_eq!((stats.duplicate_faces, stats.degenerate_faces, stats.ignored_faces), (1, 4, 3));
+    // The same face twice counts once as a duplicate, three times twice.
+    let faces = vec![vec![5, 1, 2]; 3];
+    assert_eq!(Handle::new(&Mesh::new("thrice", vec![[0.0; 3]; 6], faces)).stats().duplicate_faces, 2);
+}
+
+/// Counts by hashing, from the faces.
+#[test]
+fn counts_of_soups_are_those_of_a_naive_count() {
+    for seed in 0..150 {
+        for mesh in [soup(14, 24, 3, seed), soup(14, 16, 6, seed)] {
+            let stats = Handle::new(&mesh).stats();
+            let faces: Vec<Vec<u32>> = mesh.faces().map(cleaned).collect();
+            let mut directed: HashMap<(u32, u32), usize> = HashMap::new();
+            for face in &faces {
+                for i in 0..face.len() {
+                    *directed.entry((face[i], face[(i + 1) % face.len()])).or_default() += 1;
+                }
+            }
+            let edges: HashSet<(u32, u32)> = directed.keys().map(|&(a, b)| (a.min(b), a.max(b))).collect();
+            let of = |a, b| directed.get(&(a, b)).copied().unwrap_or(0);
+            let count = |kind: &dyn Fn(usize, usize) -> bool| {
+                edges.iter().filter(|(a, b)| kind(of(*a, *b), of(*b, *a))).count() as u64
+            };
+            assert_eq!(stats.edge_count, edges.len() as u64);
+            assert_eq!(stats.boundary_edges, count(&|out, into| out + into == 1));
+            assert_eq!(stats.winding_edges, count(&|out, into| out + into == 2 && out != into));
+            assert_eq!(stats.non_manifold_edges, count(&|out, into| out + into > 2));
+            assert_eq!(stats.corner_count, faces.iter().map(|face| face.len() as u64).sum::<u64>());
+            assert_eq!(stats.ignored_faces, faces.iter().filter(|face| face.is_empty()).count() as u64);
+            let used: HashSet<u32> = faces.iter().flatten().copied().collect();
+            assert_eq!(stats.isolated_vertices, stats.vertex_count - used.len() as u64);
+            let mut kept: Vec<Vec<u32>> = faces
+                .iter()
+                .filter(|face| !face.is_empty())
+                .map(|face| (0..face.len()).map(|i| [&face[i..], &face[..i]].concat()).min().unwrap())
+                .collect();
+            let total = kept.len();
+            kept.sort();
+            kept.dedup();
+            if mesh.is_triangles() {
+                assert_eq!(stats.duplicate_faces, (total - kept.len()) as u64, "seed {seed}");
+            }
+            let mut component: HashMap<u32, u32> = used.iter().map(|&v| (v, v)).collect();
+            for _ in 0..used.len() {
+                for (a, b) in &edges {
+                    let low = component[a].min(component[b]);
+                    component.insert(*a, low);
+                    component.insert(*b, low);
+                }
+            }
+            assert_eq!(stats.component_count, component.values().collect::<HashSet<_>>().len() as u64);
+        }
+    }
+}
+
+#[test]
+fn index_types_and_arities_give_the_same_topology() {
+    let mesh = torus(20, 11, 0.2, 1.0, 3);
+    assert!(mesh.faces().all(|face| face.len() == 4));
+    let base = Handle::new(&mesh);
+    let signed: Vec<i32> = mesh.indices.iter().map(|&i| i as i32).collect();
+    let long: Vec<u64> = mesh.indices.iter().map(|&i| i as u64).collect();
+    let (signed_offsets, long_offsets): (Vec<i32>, Vec<u64>) =
+        mesh.offsets.iter().map(|&o| (o as i32, o as u64)).unzip();
+    let count = mesh.indices.len();
+    let quads = |indices: *const std::ffi::c_void, index| umb_faces {
+        indices,
+        index_count: count,
+        offsets: std::ptr::null(),
+        face_count: 0,
+        index,
+        arity: 4,
+    };
+    let polygons =
+        |indices, offsets, index| umb_faces { offsets, face_count: 220, arity: 0, ..quads(indices, index) };
+    let (u32s, i32s, u64s) = (mesh.indices.as_ptr().cast(), signed.as_ptr().cast(), long.as_ptr().cast());
+    for faces in [
+        quads(u32s, UMB_INDEX_U32),
+        quads(i32s, UMB_INDEX_I32),
+        quads(u64s, UMB_INDEX_U64),
+        polygons(i32s, signed_offsets.as_ptr().cast(), UMB_INDEX_I32),
+        polygons(u64s, long_offsets.as_ptr().cast(), UMB_INDEX_U64),
+    ] {
+        let handle = Handle::of(&faces, mesh.positions.len());
+        for vertex in 0..mesh.positions.len() {
+            assert_eq!(fans(&handle, vertex), fans(&base, vertex));
+        }
+        assert_eq!(handle.stats().face_count, 220);
+    }
+}
+
+#[test]
+fn memory_of_a_triangle_mesh() {
+    let stats = Handle::new(&mesh::torus(200, 100, 0.2, 0.0, 1)).stats();
+    assert!(stats.bytes <= 24 * stats.face_count, "{} bytes, {} faces", stats.bytes, stats.face_count);
+}
