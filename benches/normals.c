@@ -276,8 +276,8 @@ static void bench(const mesh *m, int rounds, umb_simd simd, int threads) {
   int count = 0;
   variants[count++] = (variant){"topology build", 0, 0, 2};
   for (umb_weight w = 0; w < 10; w++) variants[count++] = (variant){names[w], w, UMB_SCALAR_F32, 0};
-  variants[count++] = (variant){"area, from faces", UMB_WEIGHT_AREA, UMB_SCALAR_F32, 1};
-  variants[count++] = (variant){"angle, from faces", UMB_WEIGHT_ANGLE, UMB_SCALAR_F32, 1};
+  variants[count++] = (variant){"conformal, from faces", UMB_WEIGHT_CONFORMAL, UMB_SCALAR_F32, 1};
+
   for (umb_weight w = 0; w < 10; w++) variants[count++] = (variant){names[w], w, UMB_SCALAR_F64, 0};
 
   workspace w = {m, NULL, allocate(m->vertex_count * 12), allocate(m->vertex_count * 24), simd, threads};

@@ -355,8 +355,8 @@ typedef struct umb_run {
    */
   umb_simd simd;
   /**
-   * The vertices to compute; null for all. Outputs stay indexed by vertex; those of other vertices are left alone.
-   * The results are the same bits as those of a call for all vertices.
+   * The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
+   * vertex; those of other vertices are left alone. The results are the same bits as those of a call for all vertices.
    */
   const uint32_t *vertices;
   /**
@@ -862,12 +862,8 @@ umb_status umb_vertex_normals(const struct umb_topology *topology,
                               struct umb_error *error);
 
 /**
- * Computes vertex normals straight from faces, without a topology.
- *
- * For a mesh whose normals are wanted once. N_CM, and a subset of vertices, build a topology for the call; every other
- * weight takes one pass over the faces, on the calling thread, in double precision. The sums then run in face order, so
- * results agree with `umb_vertex_normals` to rounding, not to the bit; of the statuses only isolated, fallback and
- * degenerate are told. Everything else is as there.
+ * Computes vertex normals once, straight from faces: builds a topology for the call and forgets it. The results are those
+ * of `umb_vertex_normals`, to the bit.
  *
  * @param faces the faces; read only during the call
  * @param points the positions of all vertices; read only during the call

@@ -7,6 +7,7 @@
 use crate::error::Error;
 use crate::simd::Level;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 
 /// How a call is carried out. The default: all cores where that pays, the widest vectors, all vertices.
 pub struct Run<'a> {
@@ -73,6 +74,31 @@ impl Claims<'_, '_> {
     }
 }
 
+/// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
+fn thread_count(wanted: usize, chunks: usize) -> usize {
+    match wanted {
+        0 => {
+            let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+            (chunks / CHUNKS_A_THREAD).clamp(1, cores)
+        }
+        wanted => wanted.min(chunks.max(1)),
+    }
+}
+
+/// Runs `other` on up to `threads - 1` threads, and `own` on this one.
+fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
+    std::thread::scope(|scope| {
+        for _ in 1..threads {
+            let spawned = std::thread::Builder::new().name(THREAD_NAME.to_owned()).spawn_scoped(scope, &other);
+            // A system that has no more threads to give leaves the work to those there are.
+            if spawned.is_err() {
+                break;
+            }
+        }
+        own();
+    });
+}
+
 /// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.
 ///
 /// # Errors
@@ -83,23 +109,13 @@ pub(crate) fn for_each_chunk(
     work: impl Fn(&mut Claims<'_, '_>) + Sync,
 ) -> Result<(), Error> {
     let shared = Shared { next: AtomicUsize::new(0), count, cancelled: AtomicBool::new(false) };
-    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
-    let threads = match run.threads {
-        0 => (count / CHUNKS_A_THREAD).clamp(1, cores()),
-        threads => threads.min(count.max(1)),
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..threads {
-            let spawned = std::thread::Builder::new()
-                .name(THREAD_NAME.to_owned())
-                .spawn_scoped(scope, || work(&mut Claims { shared: &shared, progress: None }));
-            // A system that has no more threads to give leaves the work to those there are.
-            if spawned.is_err() {
-                break;
-            }
-        }
-        work(&mut Claims { shared: &shared, progress: run.progress.as_deref_mut() });
-    });
+    let threads = thread_count(run.threads, count);
+    let progress = run.progress.as_deref_mut();
+    with_threads(
+        threads,
+        || work(&mut Claims { shared: &shared, progress: None }),
+        || work(&mut Claims { shared: &shared, progress }),
+    );
     if shared.cancelled.load(Relaxed) {
         return Err(Error::Cancelled);
     }
@@ -112,26 +128,21 @@ pub(crate) fn for_each_chunk(
 
 /// Sets each element to `value(index)`, by as many threads as `threads` asks for (0: as many as pay).
 pub(crate) fn fill<T: Send>(threads: usize, elements: &mut [T], value: impl Fn(usize) -> T + Sync) {
-    const FEWEST: usize = 1 << 15;
-    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
-    let threads = match threads {
-        0 => (elements.len() / FEWEST).clamp(1, cores()),
-        threads => threads,
-    };
+    const CHUNK: usize = 2048;
+    let threads = thread_count(threads, elements.len().div_ceil(CHUNK));
     let fill_part = |start: usize, part: &mut [T]| {
         for (index, element) in part.iter_mut().enumerate() {
             *element = value(start + index);
         }
     };
     let length = elements.len().div_ceil(threads).max(1);
-    let mut parts = elements.chunks_mut(length).enumerate();
-    let own = parts.next();
-    std::thread::scope(|scope| {
-        for (index, part) in parts {
-            scope.spawn(move || fill_part(index * length, part));
+    let parts = Mutex::new(elements.chunks_mut(length).enumerate());
+    let work = || {
+        loop {
+            let claimed = parts.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((index, part)) = claimed else { break };
+            fill_part(index * length, part);
         }
-        if let Some((_, part)) = own {
-            fill_part(0, part);
-        }
-    });
+    };
+    with_threads(threads, work, work);
 }

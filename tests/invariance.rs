@@ -216,11 +216,11 @@ fn a_polygon_and_its_collinear_refinement() {
             let oracle = Oracle::new(&fine);
             for weight in [UMB_WEIGHT_CONFORMAL, UMB_WEIGHT_UNIFORM, UMB_WEIGHT_ANGLE] {
                 let found = double(&fine, weight);
-                for vertex in mesh.positions.len()..fine.positions.len() {
+                for (vertex, found) in found.iter().enumerate().skip(mesh.positions.len()) {
                     let [a, b] = oracle.corners(vertex) else { panic!("two faces at an edge") };
                     let normal = |face| unit(oracle.area_vector(face));
                     let expected = unit(add(normal(a.face), normal(b.face)));
-                    assert!(largest_difference(found[vertex], expected) < 1e-12, "weight {weight}, vertex {vertex}");
+                    assert!(largest_difference(*found, expected) < 1e-12, "weight {weight}, vertex {vertex}");
                 }
             }
         }

@@ -143,12 +143,8 @@ pub unsafe extern "C" fn umb_vertex_normals(
     }
 }
 
-/// Computes vertex normals straight from faces, without a topology.
-///
-/// For a mesh whose normals are wanted once. N_CM, and a subset of vertices, build a topology for the call; every other
-/// weight takes one pass over the faces, on the calling thread, in double precision. The sums then run in face order, so
-/// results agree with `umb_vertex_normals` to rounding, not to the bit; of the statuses only isolated, fallback and
-/// degenerate are told. Everything else is as there.
+/// Computes vertex normals once, straight from faces: builds a topology for the call and forgets it. The results are those
+/// of `umb_vertex_normals`, to the bit.
 ///
 /// @param faces the faces; read only during the call
 /// @param points the positions of all vertices; read only during the call

@@ -116,8 +116,8 @@ pub struct umb_run {
     pub threads: u32,
     /// The widest vectors to use.
     pub simd: umb_simd,
-    /// The vertices to compute; null for all. Outputs stay indexed by vertex; those of other vertices are left alone.
-    /// The results are the same bits as those of a call for all vertices.
+    /// The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
+    /// vertex; those of other vertices are left alone. The results are the same bits as those of a call for all vertices.
     pub vertices: *const u32,
     /// The number of `vertices`.
     pub vertex_count: size_t,

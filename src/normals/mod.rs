@@ -2,14 +2,12 @@
 
 mod conformal;
 mod face;
-mod scatter;
 mod sum;
 mod vertex;
 mod weights;
 
 pub use face::{FaceOutputs, face_normals};
-pub use scatter::vertex_normals_from_faces;
-pub use vertex::{NormalOutputs, vertex_normals};
+pub use vertex::{NormalOutputs, vertex_normals, vertex_normals_from_faces};
 
 /// How a vertex normal weighs the faces, or the edges, around the vertex.
 ///
@@ -74,7 +72,7 @@ impl Weight {
         }
     }
 
-    /// The weight of that name.
+    /// The weight of that [`Weight::name`].
     pub fn from_name(name: &str) -> Option<Weight> {
         Self::ALL.into_iter().find(|weight| weight.name() == name)
     }

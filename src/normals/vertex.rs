@@ -14,7 +14,7 @@ use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, sweep};
 use crate::topology::{Topology, status};
-use crate::view::{Output, Points, StatusOutput};
+use crate::view::{Faces, Output, Points, StatusOutput};
 
 /// Where the results of [`vertex_normals`] go; all are optional, and each has an element for every vertex.
 #[derive(Debug, Default)]
@@ -31,7 +31,7 @@ pub struct NormalOutputs<'a> {
 }
 
 impl NormalOutputs<'_> {
-    pub(super) fn check_counts(&self, vertex_count: usize) -> Result<(), Error> {
+    fn check_counts(&self, vertex_count: usize) -> Result<(), Error> {
         let expected = vertex_count as u64;
         let check = |what, found: Option<usize>| match found {
             Some(found) if found != vertex_count => Err(Error::Size { what, found: found as u64, expected }),
@@ -43,7 +43,7 @@ impl NormalOutputs<'_> {
     }
 
     /// Writes one vertex. `sum` is in the mesh's units.
-    pub(super) fn write(&self, vertex: usize, normal: [f64; 3], sum: [f64; 3], status: u8) {
+    fn write(&self, vertex: usize, normal: [f64; 3], sum: [f64; 3], status: u8) {
         if let Some(output) = &self.normal {
             output.write(vertex, normal);
         }
@@ -92,6 +92,21 @@ pub fn vertex_normals(
         Weight::Sine => with!(Sine),
         Weight::AngleEdges => with!(AngleEdges),
     }
+}
+
+/// Computes vertex normals once, from faces alone: builds a [`Topology`] for the call and forgets it. The results are those
+/// of [`vertex_normals`], to the bit.
+///
+/// # Errors
+/// As [`Topology::new`] and [`vertex_normals`].
+pub fn vertex_normals_from_faces(
+    faces: &Faces<'_>,
+    points: &Points<'_>,
+    weight: Weight,
+    run: Run<'_>,
+    outputs: &NormalOutputs<'_>,
+) -> Result<(), Error> {
+    vertex_normals(&Topology::new(faces, points.len())?, points, weight, run, outputs)
 }
 
 struct Normals<'a, E> {
@@ -214,7 +229,7 @@ fn any_face<F: RingFaces<f64>>(fans: &[Ring<'_, f64, F>], scale: f64) -> Option<
     })
 }
 
-pub(super) fn unit(sum: &Sum<f64>) -> Option<[f64; 3]> {
+fn unit(sum: &Sum<f64>) -> Option<[f64; 3]> {
     let (trusted, squared) = sum.trusted();
     let normal = sum.vector.divided_by(squared.sqrt());
     trusted.then_some([normal.x, normal.y, normal.z])
@@ -229,7 +244,7 @@ fn unscale<E: Estimator>(vector: [f64; 3], total: f64, scale: f64) -> [f64; 3] {
 }
 
 /// A length to the power `power` from the ring's units to the mesh's, in steps that do not overflow before the result.
-pub(super) fn unscale_by(power: i32, vector: [f64; 3], scale: f64) -> [f64; 3] {
+fn unscale_by(power: i32, vector: [f64; 3], scale: f64) -> [f64; 3] {
     vector.map(|mut x| {
         for _ in 0..power.abs() {
             x = if power > 0 { x / scale } else { x * scale };

@@ -106,6 +106,20 @@ impl Level {
     }
 }
 
+/// Follows a chain through `count` of `N` links: from each key to its link minus one, which is the next key, the first key
+/// first. Answers with the keys in that order if the chain is back at the first after `count` steps and not before;
+/// then it went through all of them, and no two keys are equal. Keys beyond `count` are `u32::MAX`, which is no link.
+///
+/// Every step looks at all keys, without a branch: a search would mispredict more than it saves.
+#[inline(always)]
+pub(crate) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], count: usize) -> Option<[u32; N]> {
+    #[cfg(target_arch = "x86_64")]
+    if N.is_multiple_of(4) {
+        return x86::follow_chain(keys, links, count);
+    }
+    portable::follow_chain(keys, links, count)
+}
+
 /// The pair of vector types that a level works with.
 pub(crate) trait Width {
     /// Lanes of `f32`.
@@ -169,5 +183,51 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) {
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
         Kind::Avx512 => unsafe { widths::run_avx512(task) },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chains of every kind, and what the back-ends make of them.
+    #[test]
+    fn back_ends_follow_the_same_chains() {
+        let mut state = 1u64;
+        let mut below = |limit: u64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) % limit
+        };
+        let mut closed = 0;
+        for _ in 0..200_000 {
+            let count = 1 + below(8) as usize;
+            // A cycle through a few keys in random order, sometimes spoilt.
+            let mut cycle: Vec<u32> = (0..count as u32).map(|key| key * 3).collect();
+            for i in (1..count).rev() {
+                cycle.swap(i, below(i as u64 + 1) as usize);
+            }
+            let (mut keys, mut links) = ([u32::MAX; 8], [7u32; 8]);
+            for (slot, &key) in cycle.iter().enumerate() {
+                keys[slot] = key;
+                links[slot] = (cycle.iter().position(|&other| other == key).map(|at| cycle[(at + 1) % count]))
+                    .map_or(0, |next| next + 1);
+            }
+            for i in (1..count).rev() {
+                let other = 1 + below(i as u64) as usize;
+                keys.swap(i, other);
+                links.swap(i, other);
+            }
+            if below(2) == 0 {
+                keys[below(count as u64) as usize] = below(24) as u32;
+            }
+            if below(3) == 0 {
+                links[below(count as u64) as usize] = 1 + below(24) as u32;
+            }
+            let expected = portable::follow_chain(&keys, &links, count);
+            let found = follow_chain(&keys, &links, count);
+            assert_eq!(found.map(|chain| chain[..count].to_vec()), expected.map(|chain| chain[..count].to_vec()));
+            closed += found.is_some() as usize;
+        }
+        assert!((20_000..180_000).contains(&closed), "{closed}");
     }
 }

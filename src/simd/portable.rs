@@ -22,6 +22,22 @@ impl<const N: usize> Mask for Answers<N> {
     }
 }
 
+/// [`super::follow_chain`] in plain Rust.
+#[cfg_attr(target_arch = "x86_64", allow(dead_code))]
+pub(super) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], count: usize) -> Option<[u32; N]> {
+    let mut chain = [keys[0]; N];
+    let mut wanted = links[0].wrapping_sub(1);
+    for place in &mut chain[1..count] {
+        let found =
+            keys.iter().zip(links).fold(0, |found, (key, link)| found | if *key == wanted { *link } else { 0 });
+        if wanted == keys[0] || found == 0 {
+            return None;
+        }
+        *place = std::mem::replace(&mut wanted, found - 1);
+    }
+    (wanted == keys[0]).then_some(chain)
+}
+
 macro_rules! binary {
     ($trait:ident, $method:ident) => {
         impl<S: Real, const N: usize> $trait for Lanes<S, N> {

@@ -336,6 +336,43 @@ unsafe fn at<S>(base: *const u8, stride: usize, index: u32) -> *const S {
     unsafe { base.add(index as usize * stride).cast() }
 }
 
+/// [`super::follow_chain`] for a multiple of four links, with SSE2, which every x86-64 has.
+///
+/// What is wanted next stays spread over a register, so that a step waits for no move between register files: the steps of
+/// one chain wait for each other, and how long a step takes is all that counts.
+#[inline(always)]
+pub(super) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], count: usize) -> Option<[u32; N]> {
+    let mut chain = [0; N];
+    // SAFETY: SSE2 is part of x86-64, and each load takes four of the N elements.
+    unsafe {
+        let all = |x: u32| _mm_set1_epi32(x as i32);
+        let load = |row: &[u32; N], start: usize| _mm_loadu_si128(row.as_ptr().add(start).cast());
+        let (one, zero, length) = (all(1), _mm_setzero_si128(), all(count as u32));
+        let first = all(keys[0]);
+        let mut wanted = _mm_sub_epi32(all(links[0]), one);
+        let (mut failed, mut end) = (zero, zero);
+        chain[0] = keys[0];
+        for (step, key) in chain.iter_mut().enumerate().skip(1) {
+            *key = _mm_cvtsi128_si32(wanted) as u32;
+            let mut found = zero;
+            for start in (0..N).step_by(4) {
+                let same = _mm_cmpeq_epi32(load(keys, start), wanted);
+                found = _mm_or_si128(found, _mm_and_si128(load(links, start), same));
+            }
+            found = _mm_or_si128(found, _mm_shuffle_epi32::<0x4e>(found));
+            found = _mm_or_si128(found, _mm_shuffle_epi32::<0xb1>(found));
+            let at = all(step as u32);
+            let early = _mm_or_si128(_mm_cmpeq_epi32(wanted, first), _mm_cmpeq_epi32(found, zero));
+            failed = _mm_or_si128(failed, _mm_and_si128(early, _mm_cmpgt_epi32(length, at)));
+            end = _mm_or_si128(end, _mm_and_si128(wanted, _mm_cmpeq_epi32(length, at)));
+            wanted = _mm_sub_epi32(found, one);
+        }
+        end = _mm_or_si128(end, _mm_and_si128(wanted, _mm_cmpeq_epi32(length, all(N as u32))));
+        let closed = _mm_andnot_si128(failed, _mm_cmpeq_epi32(end, first));
+        (_mm_movemask_epi8(closed) == 0xffff).then_some(chain)
+    }
+}
+
 // SAFETY of the gathers: the caller of `Vector::gather` vouches that each index is followed by another point, so a
 // load of four scalars from its first coordinate stays inside the array.
 

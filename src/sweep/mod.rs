@@ -17,7 +17,7 @@ mod frames;
 mod ring;
 
 pub(crate) use frames::{CANCELLED, frame};
-pub(crate) use ring::{Corner, Face, Polygon, Ring, RingFaces, Scratch, Triangle};
+pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch};
 
 use crate::error::Error;
 use crate::parallel::{Claims, Run, for_each_chunk};
@@ -26,7 +26,7 @@ use crate::topology::Topology;
 use crate::view::{Batch, Coordinate, MAX_LANE_CORNERS, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
 use frames::Frames;
 use glam::DVec3;
-use ring::{PolygonFaces, Triangles};
+use ring::{Polygon, PolygonFaces, Triangles};
 
 /// An estimator over one-rings, and where its results go.
 pub(crate) trait Quantity: Sync {

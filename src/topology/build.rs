@@ -8,18 +8,23 @@
 //!
 //! A ring starts at the vertex's first corner in face order, so it depends on the order of faces and on nothing else.
 
-use super::fans::{FanBuilder, FanRecord};
+use super::fans::{FanBuilder, FanRecord, NO_FACE};
 use super::polygons::Polygons;
 use super::stats::Defects;
 use super::{Topology, status};
-use crate::error::{Error, filled, reserved};
-use crate::view::{Faces, Index, MAX_LANE_CORNERS, RingClass, Rings, with_indices};
+use crate::error::{Error, filled};
+use crate::simd::follow_chain;
+use crate::view::{Faces, Index, MAX_LANE_CORNERS, RingClass, Rings, Zero, with_indices, zeroed};
 
-/// Rings of more corners than this are sorted, not searched.
-const MAX_SCAN: usize = 64;
+/// Rings of up to this many corners are ordered in a window of eight records.
+const NARROW: usize = 8;
+/// Rings of up to this many corners are ordered in a window of sixteen; larger ones are sorted.
+const WIDE: usize = 16;
 
 /// A corner as its vertex sees it: the neighbour that follows in the face, the one before, and the face.
-pub(super) trait Record: Copy + Default {
+pub(super) trait Record: Zero {
+    /// Whether the face is kept.
+    const HAS_FACE: bool;
     /// `face` may be dropped.
     fn new(next: u32, prev: u32, face: u32) -> Self;
     /// The next corner of the face.
@@ -31,6 +36,7 @@ pub(super) trait Record: Copy + Default {
 }
 
 impl Record for [u32; 2] {
+    const HAS_FACE: bool = false;
     #[inline(always)]
     fn new(next: u32, prev: u32, _face: u32) -> Self {
         [next, prev]
@@ -50,6 +56,7 @@ impl Record for [u32; 2] {
 }
 
 impl Record for [u32; 3] {
+    const HAS_FACE: bool = true;
     #[inline(always)]
     fn new(next: u32, prev: u32, face: u32) -> Self {
         [next, prev, face]
@@ -107,7 +114,7 @@ impl Corners for Polygons {
 
 /// Builds the topology of faces whose indices are all below `vertex_count`.
 pub(super) fn build(faces: &Faces<'_>, vertex_count: usize) -> Result<Topology, Error> {
-    if faces.arity() == Some(3) {
+    if faces.all_triangles() {
         let ordered = with_indices!(faces.indices(), indices => {
             order::<[u32; 2]>(&Triangles(indices), indices.len(), vertex_count, None)?
         });
@@ -139,38 +146,121 @@ fn order<R: Record>(
     vertex_count: usize,
     polygons: Option<&Polygons>,
 ) -> Result<Ordered, Error> {
-    let (mut offsets, mut records) = collect::<R>(corners, capacity, vertex_count)?;
+    let (mut offsets, records) = collect::<R>(corners, capacity, vertex_count)?;
     let corner_count = offsets[vertex_count] as usize;
     let mut builder = FanBuilder::new(polygons);
-    let mut neighbours: Vec<u32> = reserved(corner_count + corner_count / 64)?;
-    let mut corner_faces: Vec<u32> = reserved(if polygons.is_some() { neighbours.capacity() } else { 0 })?;
+    let mut flat = Flat::new(corner_count, polygons.is_some())?;
     let mut flags = filled(vertex_count, 0u8)?;
     let mut start = 0;
     for vertex in 0..vertex_count {
         // The offsets of corners become offsets of ring entries as they are used up.
         let end = offsets[vertex + 1] as usize;
-        offsets[vertex] = neighbours.len() as u32;
-        let ring = &mut records[start..end];
-        start = end;
-        if ring.is_empty() {
-            flags[vertex] = status::ISOLATED;
-            continue;
-        }
-        if ring.len() <= MAX_SCAN && close_by_scan(ring) {
-            neighbours.try_reserve(ring.len())?;
-            neighbours.extend(ring.iter().map(|record| record.next()));
-            if polygons.is_some() {
-                corner_faces.try_reserve(ring.len())?;
-                corner_faces.extend(ring.iter().filter_map(|record| record.face()));
+        offsets[vertex] = flat.length as u32;
+        let count = end - start;
+        // The records are padded, so that a window of fixed length never runs over their end.
+        let closed = match count {
+            0 => {
+                flags[vertex] = status::ISOLATED;
+                continue;
             }
-        } else {
-            flags[vertex] = builder.add(vertex as u32, ring, &mut neighbours, &mut corner_faces)?;
+            1..=NARROW => close::<R, NARROW>(window(&records, start), count, &mut flat)?,
+            9..=WIDE => close::<R, WIDE>(window(&records, start), count, &mut flat)?,
+            _ => false,
+        };
+        if !closed {
+            flags[vertex] = builder.add(vertex as u32, &records[start..end], &mut flat)?;
         }
+        start = end;
     }
-    offsets[vertex_count] = neighbours.len() as u32;
+    offsets[vertex_count] = flat.length as u32;
     let (fans, mut defects) = builder.finish();
     defects.corner_count = corner_count;
+    let (neighbours, corner_faces) = flat.finish();
     Ok(Ordered { offsets, neighbours, corner_faces, flags, fans, defects })
+}
+
+/// The flat ring array while it is filled, and the faces beside it where they are kept.
+///
+/// It is zeroed ahead, so that whole windows can be written and only their count be kept.
+pub(super) struct Flat {
+    neighbours: Vec<u32>,
+    faces: Option<Vec<u32>>,
+    length: usize,
+}
+
+impl Flat {
+    fn new(corner_count: usize, faces: bool) -> Result<Self, Error> {
+        // Room for some open fans, each of which has an entry more than corners.
+        let room = corner_count + corner_count / 64 + WIDE;
+        let faces = if faces { Some(zeroed(room)?) } else { None };
+        Ok(Flat { neighbours: zeroed(room)?, faces, length: 0 })
+    }
+
+    /// Makes room for `count` entries.
+    fn reserve(&mut self, count: usize) -> Result<(), Error> {
+        let needed = self.length + count;
+        if needed > self.neighbours.len() {
+            for rows in std::iter::once(&mut self.neighbours).chain(&mut self.faces) {
+                rows.try_reserve(needed + needed / 8 - rows.len())?;
+                rows.resize(rows.capacity(), 0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Appends the first `count` of `N` entries.
+    #[inline(always)]
+    fn push_window<const N: usize>(
+        &mut self,
+        neighbours: &[u32; N],
+        faces: &[u32; N],
+        count: usize,
+    ) -> Result<(), Error> {
+        self.reserve(N)?;
+        self.neighbours[self.length..self.length + N].copy_from_slice(neighbours);
+        if let Some(rows) = &mut self.faces {
+            rows[self.length..self.length + N].copy_from_slice(faces);
+        }
+        self.length += count;
+        Ok(())
+    }
+
+    /// Appends an entry.
+    pub fn push(&mut self, neighbour: u32, face: u32) -> Result<(), Error> {
+        self.push_window(&[neighbour], &[face], 1)
+    }
+
+    fn finish(self) -> (Vec<u32>, Vec<u32>) {
+        let [neighbours, faces] = [self.neighbours, self.faces.unwrap_or_default()].map(|mut rows| {
+            rows.truncate(self.length);
+            rows.shrink_to_fit();
+            rows
+        });
+        (neighbours, faces)
+    }
+}
+
+fn window<R, const N: usize>(records: &[R], start: usize) -> &[R; N] {
+    records[start..].first_chunk().expect("records are padded by a window")
+}
+
+/// Appends the ring of the first `count` of `N` records, from the first record on, if they close to a single fan;
+/// whether they do.
+#[inline(always)]
+fn close<R: Record, const N: usize>(records: &[R; N], count: usize, flat: &mut Flat) -> Result<bool, Error> {
+    let beyond = |slot: usize| if slot < count { 0 } else { u32::MAX };
+    let nexts: [u32; N] = std::array::from_fn(|slot| records[slot].next() | beyond(slot));
+    let prevs: [u32; N] = std::array::from_fn(|slot| records[slot].prev() + 1);
+    let Some(ring) = follow_chain(&nexts, &prevs, count) else {
+        return Ok(false);
+    };
+    let face_of = |neighbour: u32| {
+        let record = nexts.iter().position(|&next| next == neighbour).map(|slot| records[slot]);
+        record.and_then(R::face).unwrap_or(NO_FACE)
+    };
+    let faces = if R::HAS_FACE { ring.map(face_of) } else { [NO_FACE; N] };
+    flat.push_window(&ring, &faces, count)?;
+    Ok(true)
 }
 
 /// The records of all corners, by vertex and in face order within a vertex.
@@ -179,8 +269,8 @@ fn collect<R: Record>(
     capacity: usize,
     vertex_count: usize,
 ) -> Result<(Vec<u32>, Vec<R>), Error> {
-    let mut offsets = filled(vertex_count + 1, 0u32)?;
-    let mut records = filled(capacity, R::default())?;
+    let mut offsets = zeroed::<u32>(vertex_count + 1)?;
+    let mut records = zeroed::<R>(capacity.checked_add(WIDE).ok_or(Error::OutOfMemory)?)?;
     // While scattering, `offsets[v + 1]` is where the next record of `v` goes; at the end it is where `v` ends.
     corners.each(|vertex, _, _, _| offsets[vertex as usize + 1] += 1);
     let mut start = 0;
@@ -195,27 +285,6 @@ fn collect<R: Record>(
     Ok((offsets, records))
 }
 
-/// Puts a ring's records in counter-clockwise order, the first staying first; whether they close to a single fan.
-///
-/// The chain of records is followed by a map from neighbour to neighbour, so if it is back at the first neighbour
-/// after as many steps as there are records, and not before, it went through all of them.
-#[inline(always)]
-fn close_by_scan<R: Record>(records: &mut [R]) -> bool {
-    let first = records[0].next();
-    let mut wanted = records[0].prev();
-    for place in 1..records.len() {
-        if wanted == first {
-            return false;
-        }
-        let Some(found) = records[place..].iter().position(|record| record.next() == wanted) else {
-            return false;
-        };
-        records.swap(place, place + found);
-        wanted = records[place].prev();
-    }
-    wanted == first
-}
-
 fn finish(
     ordered: Ordered,
     polygons: Option<Polygons>,
@@ -223,10 +292,7 @@ fn finish(
     used_faces: usize,
     degenerate_faces: usize,
 ) -> Result<Topology, Error> {
-    let Ordered { offsets, mut neighbours, flags, fans, defects, .. } = ordered;
-    if neighbours.capacity() - neighbours.len() > neighbours.len() / 16 {
-        neighbours.shrink_to_fit();
-    }
+    let Ordered { offsets, neighbours, flags, fans, defects, .. } = ordered;
     let mut rest = fans.as_slice();
     let rings = Rings::new(offsets, neighbours, |vertex, entries| match take_fans(&mut rest, vertex) {
         [] => (entries <= MAX_LANE_CORNERS).then_some((entries, true)),
@@ -256,6 +322,9 @@ fn finish(
 
 /// Splits off the fans of `vertex`, which come next if it has any.
 fn take_fans<'a>(rest: &mut &'a [FanRecord], vertex: usize) -> &'a [FanRecord] {
+    if rest.first().is_none_or(|fan| fan.vertex as usize != vertex) {
+        return &[];
+    }
     let count = rest.iter().take_while(|fan| fan.vertex as usize == vertex).count();
     let (found, others) = rest.split_at(count);
     *rest = others;

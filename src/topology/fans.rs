@@ -4,7 +4,7 @@
 //! directions. Whatever else an edge has (one face, two of the same direction, three or more) ends the fans on all its
 //! sides. The rule does not depend on the order of faces. Cost: `m log m` for `m` corners.
 
-use super::build::Record;
+use super::build::{Flat, Record};
 use super::polygons::Polygons;
 use super::stats::Defects;
 use super::status;
@@ -57,13 +57,7 @@ impl<'a> FanBuilder<'a> {
     }
 
     /// Adds the fans of a vertex to the flat arrays; answers the vertex's status bits.
-    pub fn add<R: Record>(
-        &mut self,
-        vertex: u32,
-        records: &[R],
-        neighbours: &mut Vec<u32>,
-        corner_faces: &mut Vec<u32>,
-    ) -> Result<u8, Error> {
+    pub fn add<R: Record>(&mut self, vertex: u32, records: &[R], flat: &mut Flat) -> Result<u8, Error> {
         let count = records.len();
         for buffer in [&mut self.by_next, &mut self.by_prev, &mut self.successor] {
             buffer.clear();
@@ -73,8 +67,6 @@ impl<'a> FanBuilder<'a> {
         self.taken.try_reserve(count)?;
         self.taken.resize(count, false);
         self.fans.try_reserve(count)?;
-        neighbours.try_reserve(2 * count)?;
-        corner_faces.try_reserve(if self.polygons.is_some() { 2 * count } else { 0 })?;
         self.successor.resize(count, NONE);
         self.by_next.extend(0..count as u32);
         self.by_prev.extend(0..count as u32);
@@ -88,7 +80,7 @@ impl<'a> FanBuilder<'a> {
             for corner in 0..count {
                 let starts = if open { !self.taken[corner] } else { self.successor[corner] != NONE };
                 if starts {
-                    self.emit(vertex, records, corner, !open, neighbours, corner_faces);
+                    self.emit(vertex, records, corner, !open, flat)?;
                 }
             }
         }
@@ -146,30 +138,27 @@ impl<'a> FanBuilder<'a> {
         records: &[R],
         corner: usize,
         closed: bool,
-        neighbours: &mut Vec<u32>,
-        corner_faces: &mut Vec<u32>,
-    ) {
+        flat: &mut Flat,
+    ) -> Result<(), Error> {
         let mut corners = 0;
-        let mut current = corner as u32;
-        let mut last = corner;
-        while current != NONE {
-            let record = records[current as usize];
-            neighbours.push(record.next());
-            corner_faces.extend(record.face());
-            last = current as usize;
-            self.taken[last] = true;
+        let mut current = corner;
+        loop {
+            let record = records[current];
+            flat.push(record.next(), record.face().unwrap_or(NO_FACE))?;
+            self.taken[current] = true;
             corners += 1;
             // A corner without a successor is never a start again.
-            current = std::mem::replace(&mut self.successor[last], NONE);
-            if current == corner as u32 {
+            let next = std::mem::replace(&mut self.successor[current], NONE);
+            if next == NONE || next == corner as u32 {
                 break;
             }
+            current = next as usize;
         }
         if !closed {
-            neighbours.push(records[last].prev());
-            corner_faces.extend(records[last].face().map(|_| NO_FACE));
+            flat.push(records[current].prev(), NO_FACE)?;
         }
         self.fans.push(FanRecord { vertex, corners, closed });
+        Ok(())
     }
 
     /// Counts faces that repeat an earlier one, at their lowest vertex.

@@ -31,15 +31,25 @@ enum Shape<'a> {
 pub(crate) trait Index: Copy + Send + Sync {
     /// The value, as large as it gets where it is negative.
     fn widen(self) -> u64;
+    /// Whether it is not below `limit`; a negative index reaches any.
+    fn reaches(self, limit: u64) -> bool;
     /// The value as written.
     fn as_written(self) -> i128;
 }
 macro_rules! index {
-    ($($integer:ty),*) => {$(
+    ($($integer:ty as $unsigned:ty),*) => {$(
         impl Index for $integer {
             #[inline(always)]
             fn widen(self) -> u64 {
                 self as u64
+            }
+            #[inline(always)]
+            fn reaches(self, limit: u64) -> bool {
+                // In the integer's own width, so that a vector compares as many at once as it holds.
+                match <$integer>::try_from(limit) {
+                    Ok(limit) => (self as $unsigned) >= (limit as $unsigned),
+                    Err(_) => (self as $unsigned) > (<$integer>::MAX as $unsigned),
+                }
             }
             fn as_written(self) -> i128 {
                 self as i128
@@ -47,7 +57,7 @@ macro_rules! index {
         }
     )*};
 }
-index!(u32, i32, u64);
+index!(u32 as u32, i32 as u32, u64 as u64);
 
 /// Runs `$body` with `$slice` bound to the slice of whatever integer `$indices` holds.
 macro_rules! with_indices {
@@ -102,9 +112,7 @@ fn check_range<I: Index>(indices: &[I], what: &'static str, vertex_count: usize)
     const BLOCK: usize = 4096;
     let limit = vertex_count as u64;
     for (block, chunk) in indices.chunks(BLOCK).enumerate() {
-        // A negative index widens to more than any count.
-        let largest = chunk.iter().fold(0, |largest, index| index.widen().max(largest));
-        if largest >= limit {
+        if chunk.iter().fold(false, |beyond, index| beyond | index.reaches(limit)) {
             let found = chunk.iter().position(|index| index.widen() >= limit).unwrap_or(0);
             return Err(Error::IndexOutOfRange {
                 what,
@@ -204,11 +212,13 @@ impl<'a> Faces<'a> {
         self.indices
     }
 
-    /// The corners of every face if all have the same number.
-    pub(crate) fn arity(&self) -> Option<usize> {
+    /// Whether every face has three corners.
+    pub(crate) fn all_triangles(&self) -> bool {
         match self.shape {
-            Shape::Uniform { arity } => Some(arity),
-            Shape::Offsets(_) => None,
+            Shape::Uniform { arity } => arity == 3,
+            Shape::Offsets(offsets) => with_indices!(offsets, slice => {
+                slice.iter().enumerate().all(|(face, offset)| offset.widen() == 3 * face as u64)
+            }),
         }
     }
 

@@ -5,12 +5,14 @@
 //! leaves it is checked once (alignment, strides, index ranges) and safe from then on.
 
 mod faces;
+mod memory;
 mod output;
 mod points;
 mod rings;
 
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
+pub(crate) use memory::{Zero, zeroed};
 pub use output::{Output, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};

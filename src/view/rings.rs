@@ -121,22 +121,32 @@ impl Rings {
         mut fan_class: impl FnMut(usize, usize) -> Option<(usize, bool)>,
     ) -> Result<Self, Error> {
         let vertex_count = offsets.len() - 1;
-        assert_eq!(offsets[vertex_count] as usize, neighbours.len());
+        assert!(offsets[0] == 0 && offsets[vertex_count] as usize == neighbours.len());
+        assert!(offsets.windows(2).fold(true, |ascending, pair| ascending & (pair[0] <= pair[1])));
+        assert!(neighbours.iter().fold(true, |inside, &neighbour| inside & ((neighbour as usize) < vertex_count)));
         let last = vertex_count.wrapping_sub(1) as u32;
         let mut classes = filled(vertex_count, 0u8)?;
         for (vertex, class) in classes.iter_mut().enumerate() {
-            let ring = &neighbours[offsets[vertex] as usize..offsets[vertex + 1] as usize];
-            let largest = ring.iter().fold(0, |largest, &neighbour| largest.max(neighbour));
-            assert!(ring.is_empty() || largest <= last, "neighbour {largest} of vertex {vertex}");
-            *class = match fan_class(vertex, ring.len()) {
-                _ if ring.is_empty() => RingClass::Isolated,
-                Some((corners, closed)) if largest < last && vertex as u32 != last => {
-                    assert_eq!(ring.len(), corners + !closed as usize);
+            let entries = (offsets[vertex + 1] - offsets[vertex]) as usize;
+            *class = match fan_class(vertex, entries) {
+                _ if entries == 0 => RingClass::Isolated,
+                Some((corners, closed)) if vertex as u32 != last => {
+                    assert_eq!(entries, corners + !closed as usize);
                     RingClass::Lanes { corners, closed }
                 }
                 _ => RingClass::Alone,
             }
             .code();
+        }
+        // Few rings hold the last vertex; each is found from where it stands in the flat array.
+        const BLOCK: usize = 1024;
+        for (block, entries) in neighbours.chunks(BLOCK).enumerate() {
+            if entries.iter().fold(false, |found, &neighbour| found | (neighbour == last)) {
+                for (index, _) in entries.iter().enumerate().filter(|(_, neighbour)| **neighbour == last) {
+                    let entry = (block * BLOCK + index) as u32;
+                    classes[offsets.partition_point(|&offset| offset <= entry) - 1] = RingClass::Alone.code();
+                }
+            }
         }
         let windows = vertex_count.div_ceil(WINDOW);
         let mut order = filled(vertex_count, 0u16)?;

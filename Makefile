@@ -1,0 +1,117 @@
+# umbilic: `make demo` shows it at work, `make test` tests it. Both install what they need. `make help` lists the rest.
+
+PYTHON ?= python3
+CARGO ?= cargo
+CC ?= cc
+CXX ?= c++
+MESH ?=
+BENCH ?=
+
+LIBRARY := target/release/libumbilic.so
+# Where real meshes are found or fetched to; every mesh test reads them from there.
+MESHES := target/meshes/meshes
+CMAKE_BUILD := target/examples
+VENV := target/venv
+STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
+
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench header packages clean FORCE
+
+help:
+	@echo "make demo [MESH=file]     normals of a mesh: a table, a PLY and a picture in target/demo"
+	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
+	@echo "make bench [BENCH=...]    every weight and the topology build against a plain C scatter loop"
+	@echo "make lint                 rustfmt and clippy"
+	@echo "make header               include/umbilic.h anew from src/capi"
+
+# ---- the library, and the program over it ----
+
+$(LIBRARY): FORCE
+	$(CARGO) build --release --locked --features cli
+	ln -sf libumbilic.so target/release/libumbilic.so.0
+FORCE:
+
+# ---- demo ----
+
+demo: $(LIBRARY)
+	@mkdir -p target/demo
+	$(CC) -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude examples_c/normals.c -o target/demo/normals \
+	  -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
+	@echo; echo "The C example, on a sphere of its own:"
+	target/demo/normals
+	@echo; echo "The command line, on $(if $(MESH),$(MESH),a generated mesh):"
+	$(if $(MESH),,target/release/umbilic generate bumpy -o target/demo/bumpy.ply --resolution 120)
+	target/release/umbilic info $(if $(MESH),"$(MESH)",target/demo/bumpy.ply)
+	@echo
+	target/release/umbilic normals $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/normals.ply
+	target/release/umbilic render $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/normals.png
+	@echo; echo "Written: target/demo/normals.ply and target/demo/normals.png"
+
+# ---- tests ----
+
+test: packages lint test-rust test-c test-examples test-peers
+	@echo "All tests passed."
+
+lint:
+	$(CARGO) fmt --check
+	$(CARGO) clippy --locked --all-features --all-targets -- -D warnings
+
+test-rust: $(LIBRARY) $(MESHES)
+	UMBILIC_MESHES=$(CURDIR)/$(MESHES) UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(CARGO) test --locked --features cli
+
+# The header in every language version that it promises, linked to the shared and to the static library.
+test-c: $(LIBRARY)
+	@mkdir -p target/c
+	for standard in c99 c11 c17; do \
+	  $(CC) -std=$$standard $(STRICT) -Iinclude tests/c/header.c -o target/c/header -Ltarget/release -lumbilic \
+	    -Wl,-rpath,$(CURDIR)/target/release && target/c/header || exit 1; \
+	done
+	for standard in c++11 c++14 c++17 c++20; do \
+	  $(CXX) -x c++ -std=$$standard $(STRICT) -Iinclude tests/c/header.c -o target/c/header -Ltarget/release \
+	    -lumbilic -Wl,-rpath,$(CURDIR)/target/release && target/c/header || exit 1; \
+	done
+	$(CC) -std=c99 $(STRICT) -Iinclude tests/c/header.c target/release/libumbilic.a -o target/c/header-static \
+	  -lgcc_s -lutil -lrt -lpthread -lm -ldl -lc && target/c/header-static
+	$(CC) -std=c11 $(STRICT) -Iinclude -c tests/c/layout.c -o target/c/layout.o
+	$(CC) -std=c11 -O3 -Wall -Wextra -Wpedantic -Werror -Iinclude -c benches/normals.c -o target/c/bench.o
+
+# The C and C++ examples, OpenMesh and CGAL among them, on real meshes.
+test-examples: $(LIBRARY) $(MESHES)
+	cmake -S examples_c -B $(CMAKE_BUILD) -DCMAKE_BUILD_TYPE=Release \
+	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
+	cmake --build $(CMAKE_BUILD)
+	$(CMAKE_BUILD)/normals
+	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
+	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
+
+# libigl and VCG, from their Python wheels, on real meshes.
+test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
+	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
+
+$(VENV)/done: tests/peers/requirements.txt
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check -r tests/peers/requirements.txt
+	touch $@
+
+$(MESHES): | packages
+	tests/peers/meshes.sh target/meshes
+
+# ---- Debian packages ----
+
+PACKAGES := gcc g++ binutils cmake libopenmesh-dev libcgal-dev python3-venv
+
+packages:
+	@.ci/packages $(PACKAGES)
+
+# ---- benchmark ----
+
+bench: $(LIBRARY)
+	@mkdir -p target/bench
+	$(CC) -std=c11 -O3 -march=native -Wall -Wextra -Wpedantic -Werror -Iinclude benches/normals.c \
+	  -o target/bench/normals -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
+	target/bench/normals $(BENCH)
+
+header:
+	UPDATE_HEADER=1 $(CARGO) test --test header
+
+clean:
+	$(CARGO) clean

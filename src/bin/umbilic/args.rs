@@ -1,0 +1,100 @@
+//! Values on the command line: weights, sizes, angles, names of output files.
+
+use crate::render::{LARGEST_SIDE, UpAxis};
+use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::path::{Path, PathBuf};
+use umbilic::Weight;
+
+/// A weight by its name.
+pub fn weight() -> impl TypedValueParser<Value = Weight> {
+    let names = Weight::ALL.map(|weight| PossibleValue::new(weight.name()).help(describe(weight)));
+    PossibleValuesParser::new(names).try_map(|name| Weight::from_name(&name).ok_or("no such weight"))
+}
+
+fn describe(weight: Weight) -> &'static str {
+    match weight {
+        Weight::Conformal => "A conformal map of the ring; best on irregular smooth meshes",
+        Weight::Uniform => "All faces alike",
+        Weight::Angle => "The face's angle at the vertex; indifferent to how flat parts are cut up",
+        Weight::Area => "The face's area",
+        Weight::Max => "Max 1999; exact on spheres",
+        Weight::CentroidArea => "The area over the distance to the face's centroid",
+        Weight::Centroid => "One over the squared distance to the face's centroid",
+        Weight::InverseRootEdges => "One over the root of the product of the two edges at the vertex",
+        Weight::Sine => "The sine of the angle",
+        Weight::AngleEdges => "The angle times the two edges",
+        _ => "",
+    }
+}
+
+/// The name of a PLY file to write.
+pub fn ply_file(name: &str) -> Result<PathBuf, String> {
+    file_of("ply", name)
+}
+
+/// The name of a PNG file to write.
+pub fn png_file(name: &str) -> Result<PathBuf, String> {
+    file_of("png", name)
+}
+
+/// Devices and pipes need no extension; a wrong one would promise another format.
+fn file_of(extension: &str, name: &str) -> Result<PathBuf, String> {
+    match Path::new(name).extension() {
+        Some(found) if !found.eq_ignore_ascii_case(extension) => Err(format!(
+            "the output is in the format {}, so its name must end in .{extension}",
+            extension.to_uppercase()
+        )),
+        _ => Ok(PathBuf::from(name)),
+    }
+}
+
+/// A width and a height in pixels.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    match sides {
+        Some(sides) if sides.iter().all(|side| (1..=LARGEST_SIDE).contains(side)) => Ok(sides),
+        Some(_) => Err(format!("each side must be between 1 and {LARGEST_SIDE} pixels")),
+        None => Err("expected a width and a height, such as 1200x900".to_owned()),
+    }
+}
+
+/// An angle in degrees.
+pub fn angle(text: &str) -> Result<f64, String> {
+    let degrees: Option<f64> = text.parse().ok();
+    degrees.filter(|degrees| degrees.is_finite()).ok_or_else(|| "expected a number of degrees".to_owned())
+}
+
+impl ValueEnum for UpAxis {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[UpAxis::Y, UpAxis::Z]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(match self {
+            UpAxis::Y => PossibleValue::new("y").help("Usual for models from animation"),
+            UpAxis::Z => PossibleValue::new("z").help("Usual for models from engineering and scanning"),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_angles_are_checked() {
+        assert_eq!(size("80x60"), Ok([80, 60]));
+        for bad in ["", "80", "x", "80x", "0x60", "80x99999", "-1x5", "8x6x4"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(angle("-30.5"), Ok(-30.5));
+        assert!(angle("nan").is_err() && angle("inf").is_err() && angle("up").is_err());
+    }
+
+    #[test]
+    fn extensions_must_tell_the_format() {
+        assert!(ply_file("a.PLY").is_ok() && ply_file("/dev/null").is_ok());
+        assert!(ply_file("a.obj").is_err() && png_file("a.ply").is_err());
+    }
+}

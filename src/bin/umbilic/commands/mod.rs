@@ -1,0 +1,32 @@
+//! The commands, each with its arguments and a `run` that returns what to print.
+
+mod generate;
+mod info;
+mod normals;
+mod render;
+
+use clap::Subcommand;
+use std::error::Error;
+
+/// What a command hands back: the text for the standard output, or why it failed.
+type Outcome = Result<String, Box<dyn Error>>;
+
+#[derive(Subcommand)]
+pub enum Command {
+    Normals(normals::Normals),
+    Info(info::Info),
+    Render(render::Render),
+    Generate(generate::Generate),
+}
+
+impl Command {
+    /// Runs the command.
+    pub fn run(&self) -> Outcome {
+        match self {
+            Command::Normals(command) => command.run(),
+            Command::Info(command) => command.run(),
+            Command::Render(command) => command.run(),
+            Command::Generate(command) => command.run(),
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The program `umbilic`: vertex normals, facts and pictures of meshes in files.
+//!
+//! Each of the [`commands`] has a file of its own. What they share: [`args`] (value parsers), [`compute`] (calls of the
+//! library), [`read`], [`write`], [`render`] and [`generate`] for a [`mesh`], [`progress`] bars and printed [`table`]s.
+
+mod args;
+mod commands;
+mod compute;
+mod generate;
+mod mesh;
+mod output;
+mod progress;
+mod read;
+mod render;
+mod table;
+mod write;
+
+use clap::Parser;
+use commands::Command;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Vertex normals of polygon meshes.
+///
+/// Reads OBJ, PLY, STL and OFF files. Polygons are used as they are, not cut into triangles first.
+#[derive(Parser)]
+#[command(version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  umbilic generate torus -o torus.ply
+  umbilic info torus.ply
+  umbilic normals torus.ply -o with-normals.ply
+  umbilic render torus.ply -o torus.png
+
+Exit status: 0 done, 1 failed, 2 wrong usage.";
+
+fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        let what = panic.to_string().replace('\n', " ");
+        let _ = writeln!(io::stderr(), "umbilic: internal error, please report it: {what}");
+        std::process::exit(1)
+    }));
+    match Cli::parse().command.run().and_then(|text| Ok(print(&text)?)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nothing is left to do where even this cannot be said.
+            let _ = writeln!(io::stderr(), "umbilic: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints to the standard output, whose reader may have seen enough and left.
+fn print(text: &str) -> Result<(), String> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(format!("standard output: {error}")),
+        _ => Ok(()),
+    }
+}
