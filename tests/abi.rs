@@ -15,8 +15,14 @@ fn layouts() {
     assert_eq!((size_of::<umb_normal_outputs>(), size_of::<umb_face_options>()), (72, 48));
     assert_eq!(size_of::<umb_face_outputs>(), 72);
     assert_eq!([offset_of!(umb_points, stride), offset_of!(umb_points, scalar)], [16, 24]);
-    assert_eq!([offset_of!(umb_faces, offsets), offset_of!(umb_faces, index), offset_of!(umb_faces, arity)], [16, 32, 36]);
-    assert_eq!([offset_of!(umb_run, vertices), offset_of!(umb_run, progress), offset_of!(umb_run, user)], [8, 24, 32]);
+    assert_eq!(
+        [offset_of!(umb_faces, offsets), offset_of!(umb_faces, index), offset_of!(umb_faces, arity)],
+        [16, 32, 36]
+    );
+    assert_eq!(
+        [offset_of!(umb_run, vertices), offset_of!(umb_run, progress), offset_of!(umb_run, user)],
+        [8, 24, 32]
+    );
     assert_eq!([offset_of!(umb_error, element), offset_of!(umb_error, message)], [8, 16]);
     assert_eq!([offset_of!(umb_normal_options, weight), offset_of!(umb_normal_options, run)], [4, 8]);
     let outputs = [
@@ -26,7 +32,10 @@ fn layouts() {
     ];
     assert_eq!(outputs, [8, 32, 56]);
     assert_eq!([offset_of!(umb_fan, corner_count), offset_of!(umb_fan, closed)], [16, 24]);
-    assert_eq!([offset_of!(umb_topology_stats, euler_characteristic), offset_of!(umb_topology_stats, bytes)], [128, 144]);
+    assert_eq!(
+        [offset_of!(umb_topology_stats, euler_characteristic), offset_of!(umb_topology_stats, bytes)],
+        [128, 144]
+    );
 }
 
 /// Exactly the functions of the list are exported, under the shared library's own name. `UMBILIC_LIBRARY` names the

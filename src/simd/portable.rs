@@ -120,7 +120,7 @@ impl<S: Real, const N: usize> Vector for Lanes<S, N> {
         Lanes(self.0.map(S::inverse_power_of_two))
     }
     #[inline(always)]
-    unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+    unsafe fn gather<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
         // SAFETY: the caller vouches for the indices, the base and the stride.
         let points: [[S; 3]; N] =
             std::array::from_fn(|lane| unsafe { base.add(indices[lane] as usize * stride).cast::<[S; 3]>().read() });

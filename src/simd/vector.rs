@@ -119,9 +119,9 @@ pub(crate) trait Vector:
     /// The points `indices[0..LANES]` of an array of points of this scalar type.
     ///
     /// # Safety
-    /// Every one of those indices `i` must be the index of a point, and be followed by another point: the load may
-    /// read up to one scalar past the third coordinate. `base` and `stride` are aligned for the scalar.
-    unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self>;
+    /// Each of those indices must be that of a point, and `base` and `stride` aligned for the scalar. If `WIDE`, the
+    /// load may take a fourth scalar after the three coordinates: the points must be packed, and none of them the last.
+    unsafe fn gather<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self>;
 
     /// All lanes 0.
     #[inline(always)]
@@ -201,7 +201,11 @@ macro_rules! scalar_vector {
                 self.inverse_power_of_two()
             }
             #[inline(always)]
-            unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+            unsafe fn gather<const WIDE: bool>(
+                base: *const u8,
+                stride: usize,
+                indices: &[u32; MAX_LANES],
+            ) -> Vector3<Self> {
                 // SAFETY: the caller vouches for the index, the base and the stride.
                 let [x, y, z] = unsafe { base.add(indices[0] as usize * stride).cast::<[$scalar; 3]>().read() };
                 Vector3 { x, y, z }

@@ -13,7 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 macro_rules! row {
     ($name:ident, $register:ty, $scalar:ty, $lanes:expr, $mask:ident,
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $min:ident, $max:ident,
-     $load:ident, $store:ident, $abs:expr, $negate:expr, $less:expr, $select:expr, $mirror:expr, $gather:path) => {
+     $load:ident, $store:ident, $abs:expr, $negate:expr, $less:expr, $select:expr, $mirror:expr, $gather:ident) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $name($register);
@@ -116,9 +116,13 @@ macro_rules! row {
                 $name(unsafe { $mirror(self.0) })
             }
             #[inline(always)]
-            unsafe fn gather(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+            unsafe fn gather<const WIDE: bool>(
+                base: *const u8,
+                stride: usize,
+                indices: &[u32; MAX_LANES],
+            ) -> Vector3<Self> {
                 // SAFETY: the caller vouches for the indices; for the features see the macro.
-                let (x, y, z) = unsafe { $gather(base, stride, indices) };
+                let (x, y, z) = unsafe { $gather::<WIDE>(base, stride, indices) };
                 Vector3 { x: $name(x), y: $name(y), z: $name(z) }
             }
         }
@@ -373,18 +377,48 @@ pub(super) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], co
     }
 }
 
-// SAFETY of the gathers: the caller of `Vector::gather` vouches that each index is followed by another point, so a
-// load of four scalars from its first coordinate stays inside the array.
+// SAFETY of the gathers: the caller of `Vector::gather` vouches that each index is that of a point and, if `WIDE`, that
+// the next point follows it immediately, so that four scalars may be loaded from its first coordinate on.
+
+/// The three coordinates at `point`, and in the fourth place whatever.
+#[inline(always)]
+unsafe fn point_f32<const WIDE: bool>(point: *const f32) -> __m128 {
+    // SAFETY: see above; a narrow load takes two coordinates and one.
+    unsafe {
+        if WIDE {
+            _mm_loadu_ps(point)
+        } else {
+            _mm_movelh_ps(_mm_castpd_ps(_mm_load_sd(point.cast())), _mm_load_ss(point.add(2)))
+        }
+    }
+}
+
+/// As [`point_f32`].
+#[inline(always)]
+unsafe fn point_f64<const WIDE: bool>(point: *const f64) -> __m256d {
+    // SAFETY: as there.
+    unsafe {
+        if WIDE {
+            _mm256_loadu_pd(point)
+        } else {
+            _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(_mm_loadu_pd(point)), _mm_load_sd(point.add(2)))
+        }
+    }
+}
 
 #[inline(always)]
-unsafe fn gather_f32x4(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m128, __m128, __m128) {
+unsafe fn gather_f32x4<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m128, __m128, __m128) {
     // SAFETY: see above.
     unsafe {
         let row = [
-            _mm_loadu_ps(at(base, stride, i[0])),
-            _mm_loadu_ps(at(base, stride, i[1])),
-            _mm_loadu_ps(at(base, stride, i[2])),
-            _mm_loadu_ps(at(base, stride, i[3])),
+            point_f32::<WIDE>(at(base, stride, i[0])),
+            point_f32::<WIDE>(at(base, stride, i[1])),
+            point_f32::<WIDE>(at(base, stride, i[2])),
+            point_f32::<WIDE>(at(base, stride, i[3])),
         ];
         let xy01 = _mm_unpacklo_ps(row[0], row[1]);
         let z01 = _mm_unpackhi_ps(row[0], row[1]);
@@ -396,23 +430,23 @@ unsafe fn gather_f32x4(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> 
 
 /// Two points' first four scalars, in the two halves of a register.
 #[inline(always)]
-unsafe fn pair_f32(base: *const u8, stride: usize, low: u32, high: u32) -> __m256 {
+unsafe fn pair_f32<const WIDE: bool>(base: *const u8, stride: usize, low: u32, high: u32) -> __m256 {
     // SAFETY: see above.
     unsafe {
-        let low = _mm256_castps128_ps256(_mm_loadu_ps(at(base, stride, low)));
-        _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(at(base, stride, high)))
+        let low = _mm256_castps128_ps256(point_f32::<WIDE>(at(base, stride, low)));
+        _mm256_insertf128_ps::<1>(low, point_f32::<WIDE>(at(base, stride, high)))
     }
 }
 
 #[inline(always)]
-unsafe fn gather8_f32(base: *const u8, stride: usize, i: [u32; 8]) -> (__m256, __m256, __m256) {
+unsafe fn gather8_f32<const WIDE: bool>(base: *const u8, stride: usize, i: [u32; 8]) -> (__m256, __m256, __m256) {
     // SAFETY: see above.
     unsafe {
         let row = [
-            pair_f32(base, stride, i[0], i[4]),
-            pair_f32(base, stride, i[1], i[5]),
-            pair_f32(base, stride, i[2], i[6]),
-            pair_f32(base, stride, i[3], i[7]),
+            pair_f32::<WIDE>(base, stride, i[0], i[4]),
+            pair_f32::<WIDE>(base, stride, i[1], i[5]),
+            pair_f32::<WIDE>(base, stride, i[2], i[6]),
+            pair_f32::<WIDE>(base, stride, i[3], i[7]),
         ];
         let xy01 = _mm256_unpacklo_ps(row[0], row[1]);
         let z01 = _mm256_unpackhi_ps(row[0], row[1]);
@@ -427,17 +461,25 @@ unsafe fn gather8_f32(base: *const u8, stride: usize, i: [u32; 8]) -> (__m256, _
 }
 
 #[inline(always)]
-unsafe fn gather_f32x8(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m256, __m256, __m256) {
+unsafe fn gather_f32x8<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m256, __m256, __m256) {
     // SAFETY: see above.
-    unsafe { gather8_f32(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]) }
+    unsafe { gather8_f32::<WIDE>(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]) }
 }
 
 #[inline(always)]
-unsafe fn gather_f32x16(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m512, __m512, __m512) {
+unsafe fn gather_f32x16<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m512, __m512, __m512) {
     // SAFETY: see above.
     unsafe {
-        let low = gather8_f32(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]);
-        let high = gather8_f32(base, stride, [i[8], i[9], i[10], i[11], i[12], i[13], i[14], i[15]]);
+        let low = gather8_f32::<WIDE>(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]);
+        let high = gather8_f32::<WIDE>(base, stride, [i[8], i[9], i[10], i[11], i[12], i[13], i[14], i[15]]);
         (join_f32(low.0, high.0), join_f32(low.1, high.1), join_f32(low.2, high.2))
     }
 }
@@ -449,7 +491,11 @@ unsafe fn join_f32(low: __m256, high: __m256) -> __m512 {
 }
 
 #[inline(always)]
-unsafe fn gather_f64x2(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m128d, __m128d, __m128d) {
+unsafe fn gather_f64x2<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m128d, __m128d, __m128d) {
     // SAFETY: see above.
     unsafe {
         let (p, q): (*const f64, *const f64) = (at(base, stride, i[0]), at(base, stride, i[1]));
@@ -460,14 +506,14 @@ unsafe fn gather_f64x2(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> 
 }
 
 #[inline(always)]
-unsafe fn gather4_f64(base: *const u8, stride: usize, i: [u32; 4]) -> (__m256d, __m256d, __m256d) {
+unsafe fn gather4_f64<const WIDE: bool>(base: *const u8, stride: usize, i: [u32; 4]) -> (__m256d, __m256d, __m256d) {
     // SAFETY: see above.
     unsafe {
         let row = [
-            _mm256_loadu_pd(at(base, stride, i[0])),
-            _mm256_loadu_pd(at(base, stride, i[1])),
-            _mm256_loadu_pd(at(base, stride, i[2])),
-            _mm256_loadu_pd(at(base, stride, i[3])),
+            point_f64::<WIDE>(at(base, stride, i[0])),
+            point_f64::<WIDE>(at(base, stride, i[1])),
+            point_f64::<WIDE>(at(base, stride, i[2])),
+            point_f64::<WIDE>(at(base, stride, i[3])),
         ];
         let xz01 = _mm256_unpacklo_pd(row[0], row[1]);
         let y01 = _mm256_unpackhi_pd(row[0], row[1]);
@@ -482,17 +528,25 @@ unsafe fn gather4_f64(base: *const u8, stride: usize, i: [u32; 4]) -> (__m256d, 
 }
 
 #[inline(always)]
-unsafe fn gather_f64x4(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m256d, __m256d, __m256d) {
+unsafe fn gather_f64x4<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m256d, __m256d, __m256d) {
     // SAFETY: see above.
-    unsafe { gather4_f64(base, stride, [i[0], i[1], i[2], i[3]]) }
+    unsafe { gather4_f64::<WIDE>(base, stride, [i[0], i[1], i[2], i[3]]) }
 }
 
 #[inline(always)]
-unsafe fn gather_f64x8(base: *const u8, stride: usize, i: &[u32; MAX_LANES]) -> (__m512d, __m512d, __m512d) {
+unsafe fn gather_f64x8<const WIDE: bool>(
+    base: *const u8,
+    stride: usize,
+    i: &[u32; MAX_LANES],
+) -> (__m512d, __m512d, __m512d) {
     // SAFETY: see above.
     unsafe {
-        let low = gather4_f64(base, stride, [i[0], i[1], i[2], i[3]]);
-        let high = gather4_f64(base, stride, [i[4], i[5], i[6], i[7]]);
+        let low = gather4_f64::<WIDE>(base, stride, [i[0], i[1], i[2], i[3]]);
+        let high = gather4_f64::<WIDE>(base, stride, [i[4], i[5], i[6], i[7]]);
         (join_f64(low.0, high.0), join_f64(low.1, high.1), join_f64(low.2, high.2))
     }
 }

@@ -126,6 +126,7 @@ impl<'a, S: Coordinate> Frames<'a, S> {
     }
 
     /// The frame of a face.
+    #[inline(always)]
     pub(crate) fn get(&self, face: usize) -> Frame {
         match &self.all {
             Some(all) => all[face],
@@ -133,9 +134,10 @@ impl<'a, S: Coordinate> Frames<'a, S> {
         }
     }
 
-    /// [`Polygons::corner_faces`]
-    pub(crate) fn corner_faces(&self, entries: std::ops::Range<usize>) -> &[u32] {
-        self.polygons.corner_faces(entries)
+    /// The face between a ring entry and the next.
+    #[inline(always)]
+    pub(crate) fn face_of(&self, entry: usize) -> usize {
+        self.polygons.corner_face(entry) as usize
     }
 
     /// The first corner of a face.

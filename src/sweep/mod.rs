@@ -261,68 +261,65 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         for edge in edges.iter() {
             extent = edge.largest_component().max(extent);
         }
+        let scale = extent.unit_scale();
+        scale_edges(edges, squared, scale);
         // Only double precision computes polygons, so single precision never compiles that path.
         if let (false, Some(frames)) = (V::Scalar::SINGLE, &self.frames) {
-            let scale = self.load_faces(frames, block, extent, corners, faces);
-            scale_edges(edges, squared, scale);
+            self.load_faces(frames, block, corners, scale, faces);
             self.quantity.block(block, &Ring { edges, squared, closed, faces: PolygonFaces(faces) }, scale, scratch)
         } else {
-            let scale = extent.unit_scale();
-            scale_edges(edges, squared, scale);
             self.quantity.block(block, &Ring { edges, squared, closed, faces: Triangles }, scale, scratch)
         }
     }
 
-    /// Fills `faces` in the ring's units; answers with the scale, which makes room for the faces too.
+    /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.
+    #[inline(always)]
     fn load_faces<V: Vector>(
         &self,
         frames: &Frames<'_, S>,
         block: &[u32],
-        extent: V,
         corners: usize,
+        scale: V,
         faces: &mut Vec<Polygon<V>>,
-    ) -> V {
-        let mut extents = extent.to_lanes().map(Into::<f64>::into);
-        let mut loaded = [[LoadedFace::default(); MAX_LANES]; MAX_LANE_CORNERS];
-        for lane in 0..V::LANES {
-            let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
-            let entries = self.topology.rings().ring_range(vertex);
-            let corner_faces = frames.corner_faces(entries.start..entries.start + corners);
-            for (&face, row) in corner_faces.iter().zip(&mut loaded) {
-                row[lane] = self.load_face(frames, face as usize, vertex, 1.0);
-                extents[lane] = extents[lane].max(row[lane].size);
-            }
-        }
-        let extents = extents.map(V::Scalar::from_f64);
-        let scale = V::from_lanes(&extents).unit_scale();
-        let scales = scale.to_lanes().map(Into::<f64>::into);
+    ) {
+        let scales = scale.to_lanes();
         faces.clear();
-        for row in &loaded[..corners] {
-            let lanes = |value: &dyn Fn(&LoadedFace, f64) -> f64| {
-                V::from_lanes(&std::array::from_fn(|lane| V::Scalar::from_f64(value(&row[lane], scales[lane]))))
-            };
-            let vector = |value: &dyn Fn(&LoadedFace, f64) -> DVec3| Vector3 {
-                x: lanes(&|face, scale| value(face, scale).x),
-                y: lanes(&|face, scale| value(face, scale).y),
-                z: lanes(&|face, scale| value(face, scale).z),
-            };
+        for corner in 0..corners {
+            let mut normal = [[V::Scalar::ZERO; MAX_LANES]; 3];
+            let mut centroid = [[V::Scalar::ZERO; MAX_LANES]; 3];
+            let mut area = [V::Scalar::ZERO; MAX_LANES];
+            for lane in 0..V::LANES {
+                let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
+                let face = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
+                let loaded = self.load_face(frames, face, vertex, 1.0, scales[lane].into());
+                area[lane] = V::Scalar::from_f64(loaded.area);
+                for axis in 0..3 {
+                    normal[axis][lane] = V::Scalar::from_f64(loaded.normal[axis]);
+                    centroid[axis][lane] = V::Scalar::from_f64(loaded.centroid[axis]);
+                }
+            }
             faces.push(Polygon {
-                normal: vector(&|face, _| face.normal),
-                area: lanes(&|face, scale| (face.size * scale) * (face.size * scale)),
-                centroid: vector(&|face, scale| face.centroid * scale),
+                normal: Vector3::from_lanes(&normal),
+                area: V::from_lanes(&area),
+                centroid: Vector3::from_lanes(&centroid),
             });
         }
-        scale
     }
 
-    fn load_face(&self, frames: &Frames<'_, S>, face: usize, vertex: usize, factor: f64) -> LoadedFace {
+    /// A face as a vertex sees it, in units of `scale` to a length of the mesh times `factor`.
+    #[inline(always)]
+    fn load_face(&self, frames: &Frames<'_, S>, face: usize, vertex: usize, factor: f64, scale: f64) -> LoadedFace {
         let frame = frames.get(face);
-        let mut centroid = frame.centroid * factor;
+        // A face may be larger than the ring by any amount, but its square must stay in range.
+        const LARGEST: f64 = (1u128 << 100) as f64;
+        let size = (frame.size * factor * scale).min(LARGEST);
+        let mut centroid = DVec3::ZERO;
         if Q::CENTROIDS {
-            let first = self.points.get(frames.first_corner(face) as usize) * factor;
-            centroid += first - self.points.get(vertex) * factor;
+            let point = |vertex: usize| self.points.get(vertex) * factor;
+            let offset = frame.centroid * factor + (point(frames.first_corner(face) as usize) - point(vertex));
+            centroid = offset * scale;
         }
-        LoadedFace { normal: frame.normal, size: frame.size * factor, centroid }
+        LoadedFace { normal: frame.normal, area: size * size, centroid }
     }
 
     /// The vertex-by-vertex path.
@@ -332,37 +329,43 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
         let mut factor = 1.0;
-        let mut extent = self.load_alone(vertex, factor, edges, faces);
+        let mut extent = self.load_alone(vertex, factor, edges);
         if extent == f64::INFINITY {
             factor = 0.25;
-            extent = self.load_alone(vertex, factor, edges, faces);
+            extent = self.load_alone(vertex, factor, edges);
         }
         let scale = extent.unit_scale();
         squared.resize(edges.len(), 0.0);
         scale_edges(edges, squared, scale);
-        for face in faces.iter_mut() {
-            face.area = (face.area * scale) * (face.area * scale);
-            face.centroid = face.centroid * scale;
+        faces.clear();
+        if let Some(frames) = &self.frames {
+            let ring_start = self.topology.rings().ring_range(vertex).start;
+            for fan in self.topology.fans(vertex) {
+                for corner in 0..fan.corner_count {
+                    let face = frames.face_of(ring_start + fan.start + corner);
+                    let LoadedFace { normal, area, centroid } = self.load_face(frames, face, vertex, factor, scale);
+                    faces.push(Polygon { normal: lane(normal), area, centroid: lane(centroid) });
+                }
+            }
         }
-        let mut rings = Vec::with_capacity(1);
-        let mut first_edge = 0;
-        let mut first_corner = 0;
-        for fan in self.topology.fans(vertex) {
-            let (edge_count, corners) = (fan.corner_count + 1, fan.corner_count);
-            let ring = Ring {
-                edges: &edges[first_edge..first_edge + edge_count],
-                squared: &squared[first_edge..first_edge + edge_count],
-                closed: fan.closed,
-                faces: first_corner..first_corner + corners,
-            };
-            scratch.grow(corners);
-            first_edge += edge_count;
-            first_corner += corners;
-            rings.push(ring);
-        }
+        let (mut edges, mut squared, mut faces) = (edges.as_slice(), squared.as_slice(), faces.as_slice());
+        let rings: Vec<Ring<'_, f64, PolygonFaces<'_, f64>>> = self
+            .topology
+            .fans(vertex)
+            .map(|fan| {
+                scratch.grow(fan.corner_count);
+                // Triangles have none.
+                let face_count = fan.corner_count.min(faces.len());
+                let own_faces = take(&mut faces, face_count);
+                Ring {
+                    edges: take(&mut edges, fan.corner_count + 1),
+                    squared: take(&mut squared, fan.corner_count + 1),
+                    closed: fan.closed,
+                    faces: PolygonFaces(own_faces),
+                }
+            })
+            .collect();
         if self.frames.is_some() {
-            let rings: Vec<_> =
-                rings.iter().map(|ring| ring.with_faces(PolygonFaces(&faces[ring.faces.clone()]))).collect();
             self.quantity.alone(vertex, &rings, scale * factor, scratch);
         } else {
             let rings: Vec<_> = rings.iter().map(|ring| ring.with_faces(Triangles)).collect();
@@ -370,41 +373,31 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         }
     }
 
-    /// Fills `edges` and `faces` (with sizes for areas, in the mesh's units) fan after fan; answers with their extent.
-    fn load_alone(
-        &self,
-        vertex: usize,
-        factor: f64,
-        edges: &mut Vec<Vector3<f64>>,
-        faces: &mut Vec<Polygon<f64>>,
-    ) -> f64 {
+    /// Fills `edges` fan after fan, in a closed one the first again at the end; answers with their extent.
+    fn load_alone(&self, vertex: usize, factor: f64, edges: &mut Vec<Vector3<f64>>) -> f64 {
         edges.clear();
-        faces.clear();
-        let ring_start = self.topology.rings().ring_range(vertex).start;
         for fan in self.topology.fans(vertex) {
             let first = edges.len();
             Rings::edges_of(self.points, vertex, fan.neighbours, factor, edges);
             if fan.closed {
                 edges.push(edges[first]);
             }
-            if let Some(frames) = &self.frames {
-                let start = ring_start + fan.start;
-                for &face in frames.corner_faces(start..start + fan.corner_count) {
-                    let LoadedFace { normal, size, centroid } = self.load_face(frames, face as usize, vertex, factor);
-                    faces.push(Polygon { normal: lane(normal), area: size, centroid: lane(centroid) });
-                }
-            }
         }
-        let extent = edges.iter().fold(0.0, |extent, edge| edge.largest_component().max(extent));
-        faces.iter().fold(extent, |extent, face| face.area.max(extent))
+        edges.iter().fold(0.0, |extent, edge| edge.largest_component().max(extent))
     }
 }
 
-/// A polygon as a vertex sees it, in the mesh's units.
-#[derive(Clone, Copy, Default)]
+/// Splits off the first `count` elements.
+fn take<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
+    let (first, others) = rest.split_at(count);
+    *rest = others;
+    first
+}
+
+/// A polygon as a vertex sees it, in the ring's units.
 struct LoadedFace {
     normal: DVec3,
-    size: f64,
+    area: f64,
     centroid: DVec3,
 }
 

@@ -60,6 +60,12 @@ impl Polygons {
         &self.vertices[self.offsets[face] as usize..self.offsets[face + 1] as usize]
     }
 
+    /// The face between an entry of the flat ring array and the next.
+    #[inline(always)]
+    pub(crate) fn corner_face(&self, entry: usize) -> u32 {
+        self.corner_faces[entry]
+    }
+
     /// The faces of a stretch of the flat ring array.
     #[inline(always)]
     pub(crate) fn corner_faces(&self, entries: std::ops::Range<usize>) -> &[u32] {

@@ -128,6 +128,11 @@ impl<'a, S: Coordinate> StridedPoints<'a, S> {
         self.stride
     }
 
+    /// Whether a point starts where the one before it ends.
+    pub(crate) fn is_packed(&self) -> bool {
+        self.stride == 3 * size_of::<S>()
+    }
+
     /// The three coordinates of a point.
     #[inline(always)]
     pub(crate) fn coordinates(&self, index: usize) -> [S; 3] {

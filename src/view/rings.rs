@@ -2,9 +2,9 @@
 //! lanes of edges.
 //!
 //! The table is checked when it is made and never changes. That is what lets [`Rings::load_edges`] read positions
-//! without a bounds check per neighbour, with loads that run one scalar past the third coordinate: a vertex gets a
-//! [`RingClass`] for lanes only if its ring lies inside the table and holds no index that a wide load could carry past
-//! the caller's buffer (that is, not the last vertex's).
+//! without a bounds check per neighbour, and packed ones with loads that run one scalar past the third coordinate: a
+//! vertex gets a [`RingClass`] for lanes only if its ring lies inside the table and holds no index that a wide load could
+//! carry past the caller's buffer (that is, not the last vertex's).
 
 use super::points::{Coordinate, StridedPoints, gather_converted};
 use crate::error::{Error, filled, reserved};
@@ -265,21 +265,42 @@ impl Rings {
             assert_eq!(self.classes[vertex], class);
             starts[lane] = self.offsets[vertex];
         }
-        let neighbour_count = corners + !closed as usize;
-        // SAFETY: each of these vertices was seen in `new` to be of this class: the vertex itself and its
-        // `neighbour_count` neighbours from `starts` on are inside the tables and are vertices other than the last.
+        let neighbours = &mut edges[..corners + !closed as usize];
+        // SAFETY: each of these vertices was seen in `new` to be of this class: the vertex itself and its neighbours, as
+        // many as there are edges, are inside the tables and are vertices other than the last.
         unsafe {
-            let centre = gather::<V, S>(points, &centres);
-            for (slot, edge) in edges[..neighbour_count].iter_mut().enumerate() {
-                let mut indices = [0u32; MAX_LANES];
-                for lane in 0..V::LANES {
-                    indices[lane] = *self.neighbours.get_unchecked(starts[lane] as usize + slot);
-                }
-                *edge = gather::<V, S>(points, &indices) - centre;
+            if points.is_packed() {
+                self.load_neighbours::<true, V, S>(points, &centres, &starts, neighbours);
+            } else {
+                self.load_neighbours::<false, V, S>(points, &centres, &starts, neighbours);
             }
         }
         if closed {
             edges[corners] = edges[0];
+        }
+    }
+
+    /// # Safety
+    /// In each lane, `centres` and the entries of the ring table from `starts` on, one for each edge, are points other
+    /// than the last; if `WIDE`, points are packed.
+    #[inline(always)]
+    unsafe fn load_neighbours<const WIDE: bool, V: Vector, S: Coordinate>(
+        &self,
+        points: &StridedPoints<'_, S>,
+        centres: &[u32; MAX_LANES],
+        starts: &[u32; MAX_LANES],
+        edges: &mut [Vector3<V>],
+    ) {
+        // SAFETY: handed on.
+        unsafe {
+            let centre = gather::<WIDE, V, S>(points, centres);
+            for (slot, edge) in edges.iter_mut().enumerate() {
+                let mut indices = [0u32; MAX_LANES];
+                for lane in 0..V::LANES {
+                    indices[lane] = *self.neighbours.get_unchecked(starts[lane] as usize + slot);
+                }
+                *edge = gather::<WIDE, V, S>(points, &indices) - centre;
+            }
         }
     }
 
@@ -302,10 +323,13 @@ impl Rings {
 /// # Safety
 /// As [`Vector::gather`], for the points' scalar.
 #[inline(always)]
-unsafe fn gather<V: Vector, S: Coordinate>(points: &StridedPoints<'_, S>, indices: &[u32; MAX_LANES]) -> Vector3<V> {
+unsafe fn gather<const WIDE: bool, V: Vector, S: Coordinate>(
+    points: &StridedPoints<'_, S>,
+    indices: &[u32; MAX_LANES],
+) -> Vector3<V> {
     if TypeId::of::<V::Scalar>() == TypeId::of::<S>() {
         // SAFETY: handed on; the lanes are of the points' own scalar.
-        unsafe { V::gather(points.base(), points.stride(), indices) }
+        unsafe { V::gather::<WIDE>(points.base(), points.stride(), indices) }
     } else {
         gather_converted(points, indices)
     }

@@ -7,13 +7,7 @@ use umbilic::{Error, Faces, NormalOutputs, Points, Run, Topology, Weight};
 
 /// The one-rings of a mesh.
 pub fn topology(mesh: &PolygonMesh) -> Result<Topology, Error> {
-    // Triangles need less memory where they are known to be nothing else.
-    let faces = if mesh.faces().all(|face| face.len() == 3) {
-        Faces::triangles(&mesh.indices)
-    } else {
-        Faces::polygons(&mesh.indices, &mesh.offsets)
-    };
-    Topology::new(&faces?, mesh.vertex_count())
+    Topology::new(&Faces::polygons(&mesh.indices, &mesh.offsets)?, mesh.vertex_count())
 }
 
 /// What the library finds at each vertex.
