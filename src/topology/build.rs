@@ -8,72 +8,17 @@
 //!
 //! A ring starts at the vertex's first corner in face order, so it depends on the order of faces and on nothing else.
 
-use super::fans::{FanBuilder, FanRecord, NO_FACE};
+use super::fans::{FanBuilder, FanRecord};
+use super::flat::{Bare, Flat, NO_FACE, Record, WIDE, WithFace};
 use super::polygons::Polygons;
 use super::stats::Defects;
 use super::{Topology, status};
 use crate::error::{Error, filled};
 use crate::simd::follow_chain;
-use crate::view::{Faces, Index, MAX_LANE_CORNERS, RingClass, Rings, Zero, with_indices, zeroed};
+use crate::view::{Faces, Index, MAX_LANE_CORNERS, RingClass, Rings, with_indices, zeroed};
 
 /// Rings of up to this many corners are ordered in a window of eight records.
 const NARROW: usize = 8;
-/// Rings of up to this many corners are ordered in a window of sixteen; larger ones are sorted.
-const WIDE: usize = 16;
-
-/// A corner as its vertex sees it: the neighbour that follows in the face, the one before, and the face.
-pub(super) trait Record: Zero {
-    /// Whether the face is kept.
-    const HAS_FACE: bool;
-    /// `face` may be dropped.
-    fn new(next: u32, prev: u32, face: u32) -> Self;
-    /// The next corner of the face.
-    fn next(self) -> u32;
-    /// The previous corner of the face.
-    fn prev(self) -> u32;
-    /// The face, if it is kept.
-    fn face(self) -> Option<u32>;
-}
-
-impl Record for [u32; 2] {
-    const HAS_FACE: bool = false;
-    #[inline(always)]
-    fn new(next: u32, prev: u32, _face: u32) -> Self {
-        [next, prev]
-    }
-    #[inline(always)]
-    fn next(self) -> u32 {
-        self[0]
-    }
-    #[inline(always)]
-    fn prev(self) -> u32 {
-        self[1]
-    }
-    #[inline(always)]
-    fn face(self) -> Option<u32> {
-        None
-    }
-}
-
-impl Record for [u32; 3] {
-    const HAS_FACE: bool = true;
-    #[inline(always)]
-    fn new(next: u32, prev: u32, face: u32) -> Self {
-        [next, prev, face]
-    }
-    #[inline(always)]
-    fn next(self) -> u32 {
-        self[0]
-    }
-    #[inline(always)]
-    fn prev(self) -> u32 {
-        self[1]
-    }
-    #[inline(always)]
-    fn face(self) -> Option<u32> {
-        Some(self[2])
-    }
-}
 
 /// Faces as a stream of corners.
 trait Corners {
@@ -116,13 +61,13 @@ impl Corners for Polygons {
 pub(super) fn build(faces: &Faces<'_>, vertex_count: usize) -> Result<Topology, Error> {
     if faces.all_triangles() {
         let ordered = with_indices!(faces.indices(), indices => {
-            order::<[u32; 2]>(&Triangles(indices), indices.len(), vertex_count, None)?
+            order::<Bare>(&Triangles(indices), indices.len(), vertex_count, None)?
         });
         let used = ordered.defects.corner_count / 3;
         finish(ordered, None, faces.len(), used, faces.len() - used)
     } else {
         let (mut polygons, degenerate) = Polygons::new(faces)?;
-        let mut ordered = order::<[u32; 3]>(&polygons, polygons.corner_count(), vertex_count, Some(&polygons))?;
+        let mut ordered = order::<WithFace>(&polygons, polygons.corner_count(), vertex_count, Some(&polygons))?;
         polygons.set_corner_faces(std::mem::take(&mut ordered.corner_faces));
         let used = polygons.used_faces();
         finish(ordered, Some(polygons), faces.len(), used, degenerate)
@@ -177,67 +122,6 @@ fn order<R: Record>(
     defects.corner_count = corner_count;
     let (neighbours, corner_faces) = flat.finish();
     Ok(Ordered { offsets, neighbours, corner_faces, flags, fans, defects })
-}
-
-/// The flat ring array while it is filled, and the faces beside it where they are kept.
-///
-/// It is zeroed ahead, so that whole windows can be written and only their count be kept.
-pub(super) struct Flat {
-    neighbours: Vec<u32>,
-    faces: Option<Vec<u32>>,
-    length: usize,
-}
-
-impl Flat {
-    fn new(corner_count: usize, faces: bool) -> Result<Self, Error> {
-        // Room for some open fans, each of which has an entry more than corners.
-        let room = corner_count + corner_count / 64 + WIDE;
-        let faces = if faces { Some(zeroed(room)?) } else { None };
-        Ok(Flat { neighbours: zeroed(room)?, faces, length: 0 })
-    }
-
-    /// Makes room for `count` entries.
-    fn reserve(&mut self, count: usize) -> Result<(), Error> {
-        let needed = self.length + count;
-        if needed > self.neighbours.len() {
-            for rows in std::iter::once(&mut self.neighbours).chain(&mut self.faces) {
-                rows.try_reserve(needed + needed / 8 - rows.len())?;
-                rows.resize(rows.capacity(), 0);
-            }
-        }
-        Ok(())
-    }
-
-    /// Appends the first `count` of `N` entries.
-    #[inline(always)]
-    fn push_window<const N: usize>(
-        &mut self,
-        neighbours: &[u32; N],
-        faces: &[u32; N],
-        count: usize,
-    ) -> Result<(), Error> {
-        self.reserve(N)?;
-        self.neighbours[self.length..self.length + N].copy_from_slice(neighbours);
-        if let Some(rows) = &mut self.faces {
-            rows[self.length..self.length + N].copy_from_slice(faces);
-        }
-        self.length += count;
-        Ok(())
-    }
-
-    /// Appends an entry.
-    pub fn push(&mut self, neighbour: u32, face: u32) -> Result<(), Error> {
-        self.push_window(&[neighbour], &[face], 1)
-    }
-
-    fn finish(self) -> (Vec<u32>, Vec<u32>) {
-        let [neighbours, faces] = [self.neighbours, self.faces.unwrap_or_default()].map(|mut rows| {
-            rows.truncate(self.length);
-            rows.shrink_to_fit();
-            rows
-        });
-        (neighbours, faces)
-    }
 }
 
 fn window<R, const N: usize>(records: &[R], start: usize) -> &[R; N] {

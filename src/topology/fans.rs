@@ -4,14 +4,11 @@
 //! directions. Whatever else an edge has (one face, two of the same direction, three or more) ends the fans on all its
 //! sides. The rule does not depend on the order of faces. Cost: `m log m` for `m` corners.
 
-use super::build::{Flat, Record};
+use super::flat::{Flat, NO_FACE, Record};
 use super::polygons::Polygons;
 use super::stats::Defects;
 use super::status;
 use crate::error::Error;
-
-/// Stands in the table of corner faces at the end of an open fan.
-pub(crate) const NO_FACE: u32 = u32::MAX;
 
 /// A fan of a vertex that is not a lone closed one.
 #[derive(Clone, Copy, Debug)]

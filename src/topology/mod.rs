@@ -2,12 +2,13 @@
 
 mod build;
 mod fans;
+mod flat;
 mod polygons;
 mod stats;
 
 pub use stats::TopologyStats;
 
-pub(crate) use fans::NO_FACE;
+pub(crate) use flat::NO_FACE;
 pub(crate) use polygons::Polygons;
 
 use crate::error::Error;
