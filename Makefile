@@ -72,6 +72,8 @@ test-c: $(LIBRARY)
 	$(CC) -std=c99 $(STRICT) -Iinclude tests/c/header.c target/release/libumbilic.a -o target/c/header-static \
 	  -lgcc_s -lutil -lrt -lpthread -lm -ldl -lc && target/c/header-static
 	$(CC) -std=c11 $(STRICT) -Iinclude -c tests/c/layout.c -o target/c/layout.o
+	sed -n '/^```c$$/,/^```$$/p' README.md | grep -v '^```' > target/c/readme.c
+	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinclude -c target/c/readme.c -o target/c/readme.o
 	$(CC) -std=c11 -O3 -Wall -Wextra -Wpedantic -Werror -Iinclude -c benches/normals.c -o target/c/bench.o
 
 # The C and C++ examples, OpenMesh and CGAL among them, on real meshes.

@@ -61,7 +61,8 @@
 #define UMB_NO_ELEMENT UINT64_MAX
 
 /**
- * An edge at the vertex has only one face.
+ * Bit of a status byte, and of a vertex's flags (0 is an ordinary interior vertex): an edge at the vertex has only one
+ * face.
  */
 #define UMB_VERTEX_BOUNDARY 1
 
@@ -86,7 +87,7 @@
 #define UMB_VERTEX_FALLBACK 16
 
 /**
- * Nothing at all could be computed; the results are zero.
+ * Nothing at all could be computed; the results are zero. Also the status of a face without area.
  */
 #define UMB_VERTEX_DEGENERATE 32
 
@@ -159,7 +160,8 @@ typedef struct umb_topology_options {
  */
 typedef struct umb_error {
   /**
-   * `sizeof(umb_error)`; 0 stands for the size of its first version.
+   * `sizeof(umb_error)`, set by the caller; 0 stands for the size of its first version. If it is smaller than that,
+   * nothing is written here.
    */
   uint32_t struct_size;
   /**
@@ -241,11 +243,11 @@ typedef struct umb_topology_stats {
    */
   uint64_t duplicate_faces;
   /**
-   * Pieces that no edge connects, isolated vertices not counted.
+   * Pieces, connected through shared vertices; isolated vertices are not counted.
    */
   uint64_t component_count;
   /**
-   * Closed loops of boundary edges.
+   * Closed loops of edges with one face. At a vertex with several fans the loop follows the fan.
    */
   uint64_t boundary_loops;
   /**
@@ -289,7 +291,7 @@ typedef struct umb_fan {
 } umb_fan;
 
 /**
- * The scalar type of an array: `UMB_SCALAR_F32` or `UMB_SCALAR_F64`.
+ * The scalar type of an array: `UMB_SCALAR_F32`, which is what a zeroed struct says, or `UMB_SCALAR_F64`.
  */
 typedef uint32_t umb_scalar;
 
@@ -343,11 +345,13 @@ typedef int (*umb_progress)(void *user,
                             double fraction);
 
 /**
- * How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress.
+ * How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress. Its layout
+ * is final, because it stands inside other structs; whatever comes later will stand in those.
  */
 typedef struct umb_run {
   /**
-   * The number of threads; 0 for as many as pay, 1 for the calling thread alone. Never changes a bit of a result.
+   * The number of threads, at most 256 of which are used; 0 for as many as pay, 1 for the calling thread alone. Never
+   * changes a bit of a result.
    */
   uint32_t threads;
   /**
@@ -356,7 +360,8 @@ typedef struct umb_run {
   umb_simd simd;
   /**
    * The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
-   * vertex; those of other vertices are left alone. The results are the same bits as those of a call for all vertices.
+   * vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at. May
+   * repeat. The results are the same bits as those of a call for all vertices.
    */
   const uint32_t *vertices;
   /**
@@ -395,7 +400,7 @@ typedef struct umb_normal_options {
  * An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
  *
  * It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
- * be interleaved with the positions; its elements must not overlap them.
+ * be interleaved with the positions. Its elements must not overlap those of any other array of the call.
  */
 typedef struct umb_output {
   /**
@@ -548,7 +553,7 @@ typedef struct umb_face_outputs {
 #define UMB_ERROR_OFFSETS 8
 
 /**
- * A vertex index is negative or not below the number of vertices.
+ * An index is negative, or not below the number of what it counts.
  */
 #define UMB_ERROR_INDEX_OUT_OF_RANGE 9
 
@@ -699,11 +704,11 @@ const char *umb_status_string(umb_status status);
  * name a vertex twice in a row lose the repetition; faces of fewer than three corners are ignored. No mesh is refused for
  * its shape.
  *
- * Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices. About 16 bytes a
- * triangle are held, and 24 more while building.
+ * Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices. Held are about 16 bytes
+ * a triangle, or 61 a quad; 24 more a triangle, or 48 a quad, while building.
  *
  * @param faces the faces; read only during the call
- * @param vertex_count the number of vertices, at most 2^32 - 1; there may be at most 2^31 - 1 corners
+ * @param vertex_count the number of vertices, at most 2^32 - 1, as of faces; there may be at most 2^31 - 1 corners
  * @param options may be null
  * @param topology receives the handle; destroy it with `umb_topology_destroy`
  * @param error may be null
@@ -770,14 +775,15 @@ umb_status umb_topology_get_stats(const struct umb_topology *topology,
                                   struct umb_error *error);
 
 /**
- * The number of edges at a vertex.
+ * The number of edges at a vertex. Constant time at a manifold vertex; at one with several fans a copy of its ring is
+ * sorted.
  *
  * @param topology the handle
  * @param vertex the vertex
  * @param valence receives the number
  * @param error may be null
  *
- * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE`.
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE` (element: the vertex), `_OUT_OF_MEMORY`.
  * @since 0.1.0
  */
 UMB_API
@@ -795,7 +801,7 @@ umb_status umb_topology_valence(const struct umb_topology *topology,
  * @param fan_count receives the number
  * @param error may be null
  *
- * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE`.
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE` (element: the vertex).
  * @since 0.1.0
  */
 UMB_API
@@ -814,7 +820,7 @@ umb_status umb_topology_fan_count(const struct umb_topology *topology,
  * @param fan receives the fan
  * @param error may be null
  *
- * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE` (a vertex that is none), `_SIZE` (an index that is no fan's).
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_INDEX_OUT_OF_RANGE` (element: the vertex, or the index of the fan).
  * @since 0.1.0
  */
 UMB_API

@@ -18,7 +18,7 @@ pub enum Error {
         /// The size it claims.
         size: usize,
     },
-    /// A struct has a field that this version of the library does not know, and the field is not zero.
+    /// A field that is reserved, or that this version of the library does not know, is not zero.
     UnknownField {
         /// The struct.
         what: &'static str,
@@ -69,6 +69,15 @@ pub enum Error {
         /// The number of vertices.
         vertex_count: u64,
     },
+    /// An element that was asked for and does not exist.
+    NoSuchElement {
+        /// What kind of element.
+        what: &'static str,
+        /// Its index.
+        index: u64,
+        /// How many there are.
+        count: u64,
+    },
     /// A coordinate that is NaN or infinite.
     NonFinitePosition {
         /// The vertex.
@@ -97,6 +106,7 @@ impl Error {
             Error::UnknownConstant { value, .. } => Some(value),
             Error::Offsets { face } => Some(face),
             Error::IndexOutOfRange { position, .. } => Some(position),
+            Error::NoSuchElement { index, .. } => Some(index),
             Error::NonFinitePosition { vertex } => Some(vertex),
             _ => None,
         }
@@ -111,7 +121,10 @@ impl fmt::Display for Error {
                 write!(out, "{what}.struct_size is {size}, less than the struct's first version")
             }
             Error::UnknownField { what, byte } => {
-                write!(out, "{what} is newer than this library, and its byte {byte} is not zero")
+                write!(
+                    out,
+                    "byte {byte} of {what}, reserved or unknown to this version, is not zero: is the struct initialised?"
+                )
             }
             Error::UnknownConstant { what, value } => write!(out, "{what} is {value}, which is no known constant"),
             Error::Stride { what, stride } => {
@@ -127,6 +140,9 @@ impl fmt::Display for Error {
             }
             Error::IndexOutOfRange { what, position, index, vertex_count } => {
                 write!(out, "{what}[{position}] is {index}, but there are {vertex_count} vertices")
+            }
+            Error::NoSuchElement { what, index, count } => {
+                write!(out, "there is no {what} {index}: there are {count}, counted from 0")
             }
             Error::NonFinitePosition { vertex } => write!(out, "the position of vertex {vertex} is not finite"),
             Error::TooLarge { what, found, limit } => write!(out, "{found} {what}: the limit is {limit}"),

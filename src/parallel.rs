@@ -6,12 +6,14 @@
 
 use crate::error::Error;
 use crate::simd::Level;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
-use std::sync::{Mutex, PoisonError};
+use std::cell::Cell;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How a call is carried out. The default: all cores where that pays, the widest vectors, all vertices.
 pub struct Run<'a> {
-    /// The number of threads; 0 for as many as pay, at most one a core.
+    /// The number of threads, at most 256; 0 for as many as pay, at most one a core.
     pub threads: usize,
     /// The vectors to use. It never changes a bit of a result.
     pub level: Level,
@@ -39,11 +41,26 @@ impl std::fmt::Debug for Run<'_> {
     }
 }
 
-/// What the threads of this library are called.
-pub(crate) const THREAD_NAME: &str = "umbilic";
-
 /// Fewer chunks than this for each thread are not worth starting it.
 const CHUNKS_A_THREAD: usize = 16;
+
+/// No call starts more threads than this, whatever it is asked for.
+const MOST_THREADS: usize = 256;
+
+thread_local! {
+    static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic on this thread will be caught at a door of the library, and need not be printed. Threads that a call
+/// starts inherit it.
+pub(crate) fn is_quiet() -> bool {
+    QUIET.get()
+}
+
+/// Sets [`is_quiet`]; answers with what it was.
+pub(crate) fn set_quiet(quiet: bool) -> bool {
+    QUIET.replace(quiet)
+}
 
 /// The chunks of a call, as one thread sees them.
 pub(crate) struct Claims<'a, 'p> {
@@ -54,7 +71,8 @@ pub(crate) struct Claims<'a, 'p> {
 struct Shared {
     next: AtomicUsize,
     count: usize,
-    cancelled: AtomicBool,
+    /// Why no more chunks are to be done.
+    stopped: OnceLock<Error>,
 }
 
 impl Claims<'_, '_> {
@@ -62,53 +80,73 @@ impl Claims<'_, '_> {
     pub(crate) fn next(&mut self) -> Option<usize> {
         if let Some(progress) = &mut self.progress {
             let done = self.shared.next.load(Relaxed).min(self.shared.count);
-            if !progress(done as f64 / self.shared.count as f64) {
-                self.shared.cancelled.store(true, Relaxed);
+            if !progress(done as f64 / self.shared.count.max(1) as f64) {
+                let _ = self.shared.stopped.set(Error::Cancelled);
             }
         }
-        if self.shared.cancelled.load(Relaxed) {
+        if self.shared.stopped.get().is_some() {
             return None;
         }
         let chunk = self.shared.next.fetch_add(1, Relaxed);
         (chunk < self.shared.count).then_some(chunk)
     }
-}
 
-/// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
-fn thread_count(wanted: usize, chunks: usize) -> usize {
-    match wanted {
-        0 => {
-            let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
-            (chunks / CHUNKS_A_THREAD).clamp(1, cores)
-        }
-        wanted => wanted.min(chunks.max(1)),
+    /// Ends the call with an error; the first one counts.
+    pub(crate) fn fail(&self, error: Error) {
+        // Whoever came first has said why.
+        let _ = self.shared.stopped.set(error);
     }
 }
 
-/// Runs `other` on up to `threads - 1` threads, and `own` on this one.
+/// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
+pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
+    let most = match wanted {
+        0 => chunks / CHUNKS_A_THREAD,
+        wanted => wanted.min(chunks),
+    };
+    if most <= 1 {
+        return 1;
+    }
+    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    most.min(if wanted == 0 { cores() } else { MOST_THREADS })
+}
+
+/// Runs `other` on up to `threads - 1` threads, and `own` on this one. A panic of any of them goes on here.
 fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
+    if threads <= 1 {
+        return own();
+    }
+    let quiet = is_quiet();
+    let other = || {
+        set_quiet(quiet);
+        other();
+    };
     std::thread::scope(|scope| {
-        for _ in 1..threads {
-            let spawned = std::thread::Builder::new().name(THREAD_NAME.to_owned()).spawn_scoped(scope, &other);
-            // A system that has no more threads to give leaves the work to those there are.
-            if spawned.is_err() {
-                break;
+        // A system that has no more threads to give leaves the work to those there are.
+        let start = |_| std::thread::Builder::new().name("umbilic".to_owned()).spawn_scoped(scope, other).ok();
+        let started: Vec<_> = (1..threads).map_while(start).collect();
+        own();
+        for thread in started {
+            if let Err(panic) = thread.join() {
+                resume_unwind(panic);
             }
         }
-        own();
     });
 }
 
 /// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Error::Cancelled`], and whatever [`Claims::fail`] was told.
 pub(crate) fn for_each_chunk(
     run: &mut Run<'_>,
     count: usize,
     work: impl Fn(&mut Claims<'_, '_>) + Sync,
 ) -> Result<(), Error> {
-    let shared = Shared { next: AtomicUsize::new(0), count, cancelled: AtomicBool::new(false) };
+    if count == 0 {
+        return Ok(());
+    }
+    let shared = Shared { next: AtomicUsize::new(0), count, stopped: OnceLock::new() };
     let threads = thread_count(run.threads, count);
     let progress = run.progress.as_deref_mut();
     with_threads(
@@ -116,8 +154,8 @@ pub(crate) fn for_each_chunk(
         || work(&mut Claims { shared: &shared, progress: None }),
         || work(&mut Claims { shared: &shared, progress }),
     );
-    if shared.cancelled.load(Relaxed) {
-        return Err(Error::Cancelled);
+    if let Some(error) = shared.stopped.into_inner() {
+        return Err(error);
     }
     if let Some(progress) = &mut run.progress {
         // All is written, so a wish to cancel comes too late to matter.

@@ -141,8 +141,11 @@ fn null_arguments_are_refused_one_by_one() {
         assert!(umb_topology_flags(std::ptr::null()).is_null());
         let (mut valence, mut stats): (usize, umb_topology_stats) = (7, zeroed());
         assert_eq!(umb_topology_valence(handle, 99, &mut valence, &mut error), UMB_ERROR_INDEX_OUT_OF_RANGE);
-        assert_eq!(valence, 7);
-        assert_eq!(umb_topology_fan(handle, 0, 1, std::ptr::null_mut(), &mut error), UMB_ERROR_SIZE);
+        assert_eq!((valence, error.element), (7, 99));
+        assert_eq!(message(&error), "there is no vertex 99: there are 26, counted from 0");
+        let fan = std::ptr::null_mut();
+        assert_eq!(umb_topology_fan(handle, 0, 4, fan, &mut error), UMB_ERROR_INDEX_OUT_OF_RANGE);
+        assert_eq!(error.element, 4);
         assert_eq!(umb_topology_fan(handle, 0, 0, std::ptr::null_mut(), &mut error), UMB_ERROR_NULL_POINTER);
         stats.struct_size = 16;
         assert_eq!(umb_topology_get_stats(handle, &mut stats, &mut error), UMB_ERROR_STRUCT_SIZE);
@@ -234,9 +237,12 @@ fn messages_say_what_where_and_what_was_expected() {
     error.status = -5;
     let status = unsafe { umb_topology_create(&faces(&mesh), 26, std::ptr::null(), &mut handle, &mut error) };
     assert_eq!((status, error.status), (UMB_ERROR_INDEX_OUT_OF_RANGE, -5));
-    for status in -3..1000 {
-        assert!(!umb_status_string(status).is_null());
-    }
+    let known = (0..=11).chain([100, 101, 900]);
+    // SAFETY: strings of the library, closed with a NUL.
+    let text = |status| unsafe { std::ffi::CStr::from_ptr(umb_status_string(status)) };
+    let texts: std::collections::HashSet<_> = known.map(text).collect();
+    assert_eq!(texts.len(), 15, "each status has a text of its own");
+    assert!([-1, 12, 99, 899, i32::MAX].iter().all(|&status| text(status).to_bytes() == b"unknown status"));
 }
 
 #[test]
@@ -283,6 +289,14 @@ fn progress_is_reported_and_cancels() {
         });
         assert!(state.0 > 1 && state.2 == 1.0, "{state:?}");
     }
+    // Where there is nothing to do, nothing is reported.
+    let mut state = (0, i32::MAX, 0.0);
+    common::capi::normals(&handle, &mesh.positions, UMB_WEIGHT_AREA, false, |run| {
+        run.progress = Some(count);
+        run.user = (&raw mut state).cast();
+        run.vertices = &0;
+    });
+    assert_eq!(state.0, 0);
     let points = points(&mesh.positions);
     let mut state = (0, 0, 0.0);
     let mut options: umb_normal_options = zeroed();
@@ -291,4 +305,93 @@ fn progress_is_reported_and_cancels() {
     let (outputs, mut error): (umb_normal_outputs, umb_error) = (zeroed(), zeroed());
     let status = unsafe { umb_vertex_normals(handle.0, &points, &options, &outputs, &mut error) };
     assert_eq!((status, state.0), (UMB_ERROR_CANCELLED, 1));
+}
+
+#[test]
+fn a_long_list_minds_only_the_positions_that_it_needs_too() {
+    for quads in [0.0, 0.6] {
+        let mut mesh = common::mesh::torus(40, 30, 0.2, quads, 1);
+        let handle = Handle::new(&mesh);
+        // The vertices of one side, many times over; a position on the other side is broken.
+        let list: Vec<u32> = (0..20_000).map(|i| i % 300).collect();
+        let call = |mesh: &Mesh| {
+            let mut options: umb_normal_options = zeroed();
+            (options.run.vertices, options.run.vertex_count) = (list.as_ptr(), list.len());
+            let (outputs, mut error): (umb_normal_outputs, umb_error) = (zeroed(), zeroed());
+            let points = points(&mesh.positions);
+            (unsafe { umb_vertex_normals(handle.0, &points, &options, &outputs, &mut error) }, error.element)
+        };
+        mesh.positions[900][1] = f64::NAN;
+        assert_eq!(call(&mesh).0, UMB_OK);
+        mesh.positions[150][2] = f64::INFINITY;
+        assert_eq!(call(&mesh), (UMB_ERROR_NON_FINITE, 150));
+    }
+}
+
+#[test]
+fn outputs_stats_and_errors_of_newer_versions() {
+    #[repr(C)]
+    struct Newer<T> {
+        known: T,
+        tail: [u64; 3],
+    }
+    let case = Case::new();
+    let points = points(&case.mesh.positions);
+    let mut normals = vec![[0.0f64; 3]; case.mesh.positions.len()];
+    let mut outputs: Newer<umb_normal_outputs> = zeroed();
+    outputs.known.struct_size = size_of_val(&outputs) as u32;
+    outputs.known.normal = output(&mut normals);
+    let mut error: Newer<umb_error> = zeroed();
+    error.known.struct_size = size_of_val(&error) as u32;
+    error.tail = [9; 3];
+    let mut stats: Newer<umb_topology_stats> = zeroed();
+    stats.known.struct_size = size_of_val(&stats) as u32;
+    stats.tail = [9; 3];
+    unsafe {
+        let (outputs, error) = (&raw mut outputs, &raw mut error);
+        let handle = case.handle.0;
+        let call = move || umb_vertex_normals(handle, &points, std::ptr::null(), outputs.cast(), error.cast());
+        assert_eq!(call(), UMB_OK);
+        assert!((normals[0][2] - 1.0).abs() < 1e-12);
+        (*outputs).tail[1] = 1;
+        assert_eq!(call(), UMB_ERROR_UNKNOWN_FIELD);
+        assert_eq!((*error).known.element, size_of::<umb_normal_outputs>() as u64 + 8);
+        assert_eq!((*error).tail, [9; 3]);
+        assert_eq!(umb_topology_get_stats(case.handle.0, (&raw mut stats).cast(), error.cast()), UMB_OK);
+    }
+    assert_eq!((stats.known.vertex_count, stats.tail), (26, [0; 3]));
+}
+
+#[test]
+fn one_topology_serves_many_threads_at_once() {
+    struct Shared(*const umb_topology);
+    unsafe impl Sync for Shared {}
+    let mesh = common::mesh::torus(60, 40, 0.3, 0.3, 1);
+    let handle = Handle::new(&mesh);
+    let shared = Shared(handle.0);
+    let expected: Vec<_> = common::capi::WEIGHTS
+        .map(|weight| common::capi::normals(&handle, &mesh.positions, weight, false, |_| ()).normal)
+        .into();
+    let barrier = std::sync::Barrier::new(8);
+    std::thread::scope(|scope| {
+        for thread in 0..8 {
+            let (shared, mesh, expected, barrier) = (&shared, &mesh, &expected, &barrier);
+            scope.spawn(move || {
+                barrier.wait();
+                for round in 0..20 {
+                    let weight = (thread + round) % 10;
+                    let mut normals = vec![[0.0f64; 3]; mesh.positions.len()];
+                    let mut options: umb_normal_options = zeroed();
+                    (options.weight, options.run.threads) = (weight as u32, 1 + round as u32 % 3);
+                    let mut outputs: umb_normal_outputs = zeroed();
+                    outputs.normal = output(&mut normals);
+                    let points = points(&mesh.positions);
+                    let error = std::ptr::null_mut();
+                    let status = unsafe { umb_vertex_normals(shared.0, &points, &options, &outputs, error) };
+                    assert_eq!(status, UMB_OK);
+                    assert!(normals == expected[weight]);
+                }
+            });
+        }
+    });
 }

@@ -79,6 +79,8 @@ fn an_edge_with_three_faces() {
     let handle = Handle::new(&Mesh::new("book", vec![[0.0; 3]; 5], faces));
     let stats = handle.stats();
     assert_eq!((stats.non_manifold_edges, stats.boundary_edges, stats.edge_count), (1, 6, 7));
+    // The boundary of every page ends at the back of the book.
+    assert_eq!(stats.boundary_loops, 0);
     assert_eq!(fans(&handle, 0).len(), 3);
     assert_eq!(flags(&handle)[0], UMB_VERTEX_NON_MANIFOLD | UMB_VERTEX_BOUNDARY);
     let mut valence = 0;
@@ -115,6 +117,11 @@ fn duplicate_degenerate_and_short_faces() {
     // The same face twice counts once as a duplicate, three times twice.
     let faces = vec![vec![5, 1, 2]; 3];
     assert_eq!(Handle::new(&Mesh::new("thrice", vec![[0.0; 3]; 6], faces)).stats().duplicate_faces, 2);
+    // A vertex twice in a face does not confuse the count, wherever the face starts.
+    for second in [vec![0, 1, 2, 0, 3, 4], vec![0, 3, 4, 0, 1, 2], vec![3, 4, 0, 1, 2, 0]] {
+        let faces = vec![vec![0, 1, 2, 0, 3, 4], second];
+        assert_eq!(Handle::new(&Mesh::new("pinched", vec![[0.0; 3]; 5], faces)).stats().duplicate_faces, 1);
+    }
 }
 
 /// Counts by hashing, from the faces.
@@ -151,9 +158,8 @@ fn counts_of_soups_are_those_of_a_naive_count() {
             let total = kept.len();
             kept.sort();
             kept.dedup();
-            if mesh.is_triangles() {
-                assert_eq!(stats.duplicate_faces, (total - kept.len()) as u64, "seed {seed}");
-            }
+            assert_eq!(stats.duplicate_faces, (total - kept.len()) as u64, "seed {seed}");
+            assert_eq!(stats.euler_characteristic, used.len() as i64 - edges.len() as i64 + total as i64);
             let mut component: HashMap<u32, u32> = used.iter().map(|&v| (v, v)).collect();
             for _ in 0..used.len() {
                 for (a, b) in &edges {
@@ -207,4 +213,33 @@ fn index_types_and_arities_give_the_same_topology() {
 fn memory_of_a_triangle_mesh() {
     let stats = Handle::new(&mesh::torus(200, 100, 0.2, 0.0, 1)).stats();
     assert!(stats.bytes <= 24 * stats.face_count, "{} bytes, {} faces", stats.bytes, stats.face_count);
+}
+
+/// Meshes on which anything quadratic would take minutes.
+#[test]
+fn hostile_meshes_take_linear_time() {
+    // Many fans at one vertex.
+    let count = 200_000u32;
+    let faces = (0..count).map(|i| vec![0, 2 * i + 1, 2 * i + 2]).collect();
+    let positions = (0..=2 * count).map(|i| [i as f64 % 7.0, i as f64 % 5.0, (i > 0) as u32 as f64]).collect();
+    let hub = Mesh::new("hub", positions, faces);
+    // One polygon of many corners, twice; and with every corner at one of two vertices.
+    let corners: Vec<u32> = (0..count).collect();
+    let positions: Vec<[f64; 3]> = (0..count).map(|i| [(i as f64).cos(), (i as f64).sin(), 0.0]).collect();
+    let twice = Mesh::new("large polygon twice", positions.clone(), vec![corners.clone(), corners]);
+    let alternating = (0..count).map(|i| i % 2 * (1 + i % 3)).collect();
+    let pinched = Mesh::new("pinched polygon", positions, vec![alternating]);
+    // The same triangle many times.
+    let repeated = Mesh::new("one triangle", vec![[0.0; 3]; 3], vec![vec![0, 1, 2]; count as usize]);
+    for (mesh, duplicates) in [(&hub, 0), (&twice, 1), (&pinched, 0), (&repeated, count as u64 - 1)] {
+        let handle = Handle::new(mesh);
+        assert_eq!(handle.stats().duplicate_faces, duplicates, "{}", mesh.name);
+        let found = common::capi::normals(&handle, &mesh.positions, UMB_WEIGHT_CONFORMAL, false, |_| ());
+        assert!(found.normal.iter().flatten().all(|x| x.is_finite()));
+        let list = [0u32; 1000];
+        common::capi::normals(&handle, &mesh.positions, UMB_WEIGHT_AREA, false, |run| {
+            (run.vertices, run.vertex_count) = (list.as_ptr(), 3);
+        });
+    }
+    assert_eq!(fans(&Handle::new(&hub), 0).len(), count as usize);
 }

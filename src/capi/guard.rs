@@ -2,13 +2,9 @@
 
 use super::status::{Failure, UMB_OK, umb_error, umb_status};
 use crate::error::Error;
-use std::cell::Cell;
+use crate::parallel::{is_quiet, set_quiet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
-
-thread_local! {
-    static GUARDED: Cell<bool> = const { Cell::new(false) };
-}
 
 /// Runs an entry point: no panic leaves it, nothing is printed, and a failure is reported to `error`.
 ///
@@ -16,9 +12,9 @@ thread_local! {
 /// `error` is null, or points to a `umb_error` of the size it claims.
 pub(super) unsafe fn guard(error: *mut umb_error, body: impl FnOnce() -> Result<(), Error>) -> umb_status {
     silence_guarded_panics();
-    let outer = GUARDED.replace(true);
+    let outer = set_quiet(true);
     let outcome = catch_unwind(AssertUnwindSafe(body));
-    GUARDED.set(outer);
+    set_quiet(outer);
     let failure = match outcome {
         Ok(Ok(())) => return UMB_OK,
         Ok(Err(error)) => Failure::Error(error),
@@ -29,15 +25,18 @@ pub(super) unsafe fn guard(error: *mut umb_error, body: impl FnOnce() -> Result<
     failure.status()
 }
 
-/// A library must not write to its host's standard error: panics that a guard will catch, on the caller's thread or on a
-/// worker's, skip the hook that prints them. All others go where they went before.
+/// A library must not write to its host's standard error: panics that a guard will catch, on the caller's thread or on one
+/// that the call started, skip the hook that prints them. All others go where they went before.
 fn silence_guarded_panics() {
     static INSTALLED: Once = Once::new();
+    // A thread that is unwinding may not set a hook; a later call will.
+    if INSTALLED.is_completed() || std::thread::panicking() {
+        return;
+    }
     INSTALLED.call_once(|| {
         let previous = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            let worker = std::thread::current().name() == Some(crate::parallel::THREAD_NAME);
-            if !worker && !GUARDED.get() {
+            if !is_quiet() {
                 previous(info);
             }
         }));
@@ -56,7 +55,7 @@ pub(super) unsafe trait Versioned: Copy {
 }
 
 /// No version of any struct is larger; a size beyond it is not worth reading the tail for.
-const LARGEST: usize = 4096;
+pub(super) const LARGEST_STRUCT: usize = 4096;
 
 /// Reads a struct of any version, past or to come: fields that the caller's version lacks are zero, and fields that it
 /// has and this one lacks must be. A size of 0 stands for the first version; null for all zeros.
@@ -78,7 +77,7 @@ pub(super) unsafe fn read_versioned<T: Versioned>(pointer: *const T) -> Result<T
         0 => T::FIRST_SIZE,
         size => size,
     };
-    if !(T::FIRST_SIZE..=LARGEST).contains(&size) {
+    if !(T::FIRST_SIZE..=LARGEST_STRUCT).contains(&size) {
         return Err(Error::StructSize { what: T::NAME, size });
     }
     let known = size_of::<T>();

@@ -27,7 +27,7 @@ pub const UMB_ERROR_MISALIGNED: umb_status = 6;
 pub const UMB_ERROR_SIZE: umb_status = 7;
 /// Face offsets do not run upwards from 0 to the number of indices.
 pub const UMB_ERROR_OFFSETS: umb_status = 8;
-/// A vertex index is negative or not below the number of vertices.
+/// An index is negative, or not below the number of what it counts.
 pub const UMB_ERROR_INDEX_OUT_OF_RANGE: umb_status = 9;
 /// A coordinate is NaN or infinite.
 pub const UMB_ERROR_NON_FINITE: umb_status = 10;
@@ -47,7 +47,8 @@ pub const UMB_NO_ELEMENT: u64 = u64::MAX;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_error {
-    /// `sizeof(umb_error)`; 0 stands for the size of its first version.
+    /// `sizeof(umb_error)`, set by the caller; 0 stands for the size of its first version. If it is smaller than that,
+    /// nothing is written here.
     pub struct_size: u32,
     /// The status that the call returned.
     pub status: umb_status,
@@ -82,7 +83,7 @@ impl Failure {
                 Error::Misaligned { .. } => UMB_ERROR_MISALIGNED,
                 Error::Size { .. } => UMB_ERROR_SIZE,
                 Error::Offsets { .. } => UMB_ERROR_OFFSETS,
-                Error::IndexOutOfRange { .. } => UMB_ERROR_INDEX_OUT_OF_RANGE,
+                Error::IndexOutOfRange { .. } | Error::NoSuchElement { .. } => UMB_ERROR_INDEX_OUT_OF_RANGE,
                 Error::NonFinitePosition { .. } => UMB_ERROR_NON_FINITE,
                 Error::TooLarge { .. } => UMB_ERROR_TOO_LARGE,
                 Error::OutOfMemory => UMB_ERROR_OUT_OF_MEMORY,
@@ -172,7 +173,7 @@ pub extern "C" fn umb_status_string(status: umb_status) -> *const c_char {
         UMB_ERROR_MISALIGNED => c"an array is not aligned",
         UMB_ERROR_SIZE => c"a count does not fit",
         UMB_ERROR_OFFSETS => c"face offsets are not ascending",
-        UMB_ERROR_INDEX_OUT_OF_RANGE => c"a vertex index is out of range",
+        UMB_ERROR_INDEX_OUT_OF_RANGE => c"an index is out of range",
         UMB_ERROR_NON_FINITE => c"a position is not finite",
         UMB_ERROR_TOO_LARGE => c"the mesh is too large",
         UMB_ERROR_OUT_OF_MEMORY => c"out of memory",

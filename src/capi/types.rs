@@ -8,7 +8,7 @@ use crate::view::{Faces, Indices, Output, Points, StatusOutput};
 use libc::{c_int, c_void, size_t};
 use std::mem::offset_of;
 
-/// The scalar type of an array: `UMB_SCALAR_F32` or `UMB_SCALAR_F64`.
+/// The scalar type of an array: `UMB_SCALAR_F32`, which is what a zeroed struct says, or `UMB_SCALAR_F64`.
 pub type umb_scalar = u32;
 /// 32-bit floating point; the default.
 pub const UMB_SCALAR_F32: umb_scalar = 0;
@@ -80,7 +80,7 @@ pub struct umb_faces {
 /// An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
 ///
 /// It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
-/// be interleaved with the positions; its elements must not overlap them.
+/// be interleaved with the positions. Its elements must not overlap those of any other array of the call.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_output {
@@ -108,16 +108,19 @@ pub struct umb_status_output {
 /// exception).
 pub type umb_progress = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> c_int>;
 
-/// How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress.
+/// How a call is carried out. All zero: all cores where that pays, the widest vectors, all vertices, no progress. Its layout
+/// is final, because it stands inside other structs; whatever comes later will stand in those.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_run {
-    /// The number of threads; 0 for as many as pay, 1 for the calling thread alone. Never changes a bit of a result.
+    /// The number of threads, at most 256 of which are used; 0 for as many as pay, 1 for the calling thread alone. Never
+    /// changes a bit of a result.
     pub threads: u32,
     /// The widest vectors to use.
     pub simd: umb_simd,
     /// The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
-    /// vertex; those of other vertices are left alone. The results are the same bits as those of a call for all vertices.
+    /// vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at. May
+    /// repeat. The results are the same bits as those of a call for all vertices.
     pub vertices: *const u32,
     /// The number of `vertices`.
     pub vertex_count: size_t,
@@ -127,40 +130,25 @@ pub struct umb_run {
     pub user: *mut c_void,
 }
 
-// SAFETY: repr(C), the size first, no padding (asserted below), and any bytes are valid: pointers and a nullable
-// function pointer included.
-unsafe impl Versioned for super::umb_topology_options {
-    const NAME: &'static str = "umb_topology_options";
-    const FIRST_SIZE: usize = 8;
+macro_rules! versioned {
+    ($($name:ident: $size_64:literal, $size_32:literal;)*) => {$(
+        // SAFETY: repr(C), the size first, no padding, and any bytes are valid: pointers and a nullable function pointer
+        // included.
+        unsafe impl Versioned for super::$name {
+            const NAME: &'static str = stringify!($name);
+            const FIRST_SIZE: usize = if cfg!(target_pointer_width = "64") { $size_64 } else { $size_32 };
+        }
+        const _: () = assert!(size_of::<super::$name>() >= <super::$name as Versioned>::FIRST_SIZE);
+    )*};
 }
-// SAFETY: as above.
-unsafe impl Versioned for super::umb_normal_options {
-    const NAME: &'static str = "umb_normal_options";
-    const FIRST_SIZE: usize = 8 + size_of::<umb_run>();
+// The sizes of the first versions, which never change, with pointers of 64 and of 32 bits.
+versioned! {
+    umb_topology_options: 8, 8;
+    umb_normal_options: 48, 32;
+    umb_face_options: 48, 32;
+    umb_normal_outputs: 72, 48;
+    umb_face_outputs: 72, 48;
 }
-// SAFETY: as above.
-unsafe impl Versioned for super::umb_face_options {
-    const NAME: &'static str = "umb_face_options";
-    const FIRST_SIZE: usize = 8 + size_of::<umb_run>();
-}
-// SAFETY: as above.
-unsafe impl Versioned for super::umb_normal_outputs {
-    const NAME: &'static str = "umb_normal_outputs";
-    const FIRST_SIZE: usize = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
-}
-// SAFETY: as above.
-unsafe impl Versioned for super::umb_face_outputs {
-    const NAME: &'static str = "umb_face_outputs";
-    const FIRST_SIZE: usize = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
-}
-const _: () = {
-    assert!(size_of::<super::umb_topology_options>() == 8);
-    assert!(size_of::<super::umb_normal_options>() == 8 + size_of::<umb_run>());
-    assert!(size_of::<super::umb_face_options>() == 8 + size_of::<umb_run>());
-    let outputs = 8 + 2 * size_of::<umb_output>() + size_of::<umb_status_output>();
-    assert!(size_of::<super::umb_normal_outputs>() == outputs);
-    assert!(size_of::<super::umb_face_outputs>() == outputs);
-};
 
 impl umb_points {
     /// # Safety

@@ -9,9 +9,10 @@
 
 use crate::error::Error;
 use crate::parallel::{Run, for_each_chunk};
-use crate::sweep::frame;
+use crate::sweep::area_vector;
 use crate::topology::status;
 use crate::view::{Coordinate, Faces, Index, Output, PointArray, Points, StatusOutput, StridedPoints, with_indices};
+use glam::DVec3;
 
 /// Where the results of [`face_normals`] go; all are optional, and each has an element for every face.
 #[derive(Debug, Default)]
@@ -65,15 +66,17 @@ fn each_face<S: Coordinate, I: Index>(
     for_each_chunk(run, faces.len().div_ceil(CHUNK), |claims| {
         while let Some(chunk) = claims.next() {
             for face in chunk * CHUNK..faces.len().min((chunk + 1) * CHUNK) {
-                let frame = frame(points, &indices[faces.range(face)], false);
+                let found = area_vector(points, &indices[faces.range(face)]);
+                let normal = found.as_ref().map_or(DVec3::ZERO, |found| found.normal);
                 if let Some(output) = &outputs.normal {
-                    output.write(face, frame.normal.to_array());
+                    output.write(face, normal.to_array());
                 }
                 if let Some(output) = &outputs.area_vector {
-                    output.write(face, (frame.normal * frame.size * frame.size).to_array());
+                    let vector = found.as_ref().map_or(DVec3::ZERO, |found| found.in_mesh_units());
+                    output.write(face, vector.to_array());
                 }
                 if let Some(output) = &outputs.status {
-                    output.write(face, if frame.size > 0.0 { 0 } else { status::DEGENERATE });
+                    output.write(face, if found.is_some() { 0 } else { status::DEGENERATE });
                 }
             }
         }

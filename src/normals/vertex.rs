@@ -12,7 +12,7 @@ use super::weights::{
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, sweep};
+use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Topology, status};
 use crate::view::{Faces, Output, Points, StatusOutput};
 
@@ -161,7 +161,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
     fn alone<F: RingFaces<f64>>(
         &self,
         vertex: usize,
-        fans: &[Ring<'_, f64, F>],
+        fans: &VertexFans<'_, F>,
         scale: f64,
         scratch: &mut Scratch<f64>,
     ) {
@@ -184,7 +184,7 @@ type Found = ([f64; 3], [f64; 3], u8);
 
 /// The estimator's normal, or that of the first fallback that has one.
 fn with_fallback<E: Estimator, F: RingFaces<f64>>(
-    fans: &[Ring<'_, f64, F>],
+    fans: &VertexFans<'_, F>,
     scale: f64,
     scratch: &mut Scratch<f64>,
 ) -> Option<Found> {
@@ -199,13 +199,13 @@ fn as_fallback((normal, sum, _): Found) -> Found {
 }
 
 fn over_fans<E: Estimator, F: RingFaces<f64>>(
-    fans: &[Ring<'_, f64, F>],
+    fans: &VertexFans<'_, F>,
     scale: f64,
     scratch: &mut Scratch<f64>,
 ) -> Option<Found> {
     let mut all = Sum::<f64>::zero();
-    for fan in fans {
-        let mut sum = E::sum(fan, scratch);
+    for ring in fans.rings() {
+        let mut sum = E::sum(&ring, scratch);
         if E::MEAN {
             let share = sum.total.reciprocal_or_zero();
             sum = Sum { vector: sum.vector * share, spread: sum.spread * share * share, total: sum.total * share };
@@ -220,9 +220,9 @@ fn over_fans<E: Estimator, F: RingFaces<f64>>(
 }
 
 /// The area vector of the first face that has one.
-fn any_face<F: RingFaces<f64>>(fans: &[Ring<'_, f64, F>], scale: f64) -> Option<Found> {
-    let corners = fans.iter().flat_map(|fan| (0..fan.corner_count()).map(|index| fan.corner(index)));
-    corners.into_iter().find_map(|corner| {
+fn any_face<F: RingFaces<f64>>(fans: &VertexFans<'_, F>, scale: f64) -> Option<Found> {
+    let mut corners = fans.rings().flat_map(|ring| (0..ring.corner_count()).map(move |index| ring.corner(index)));
+    corners.find_map(|corner| {
         let (vector, spread) = term::<Area, f64, F::Face>(&corner);
         let normal = unit(&Sum { vector, spread, total: 0.0 })?;
         Some((normal, unscale_by(Area::DIMENSION, [vector.x, vector.y, vector.z], scale), 0))

@@ -388,7 +388,8 @@ unsafe fn point_f32<const WIDE: bool>(point: *const f32) -> __m128 {
         if WIDE {
             _mm_loadu_ps(point)
         } else {
-            _mm_movelh_ps(_mm_castpd_ps(_mm_load_sd(point.cast())), _mm_load_ss(point.add(2)))
+            // The load of two takes any alignment; that of a double would not.
+            _mm_movelh_ps(_mm_castsi128_ps(_mm_loadl_epi64(point.cast())), _mm_load_ss(point.add(2)))
         }
     }
 }

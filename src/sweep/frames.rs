@@ -21,6 +21,8 @@ pub(crate) struct Frame {
     pub size: f64,
     /// From the first corner to the centroid, if it was asked for.
     pub centroid: DVec3,
+    /// Whether there are more than three corners, so that one of them may be reflex.
+    pub may_turn: bool,
 }
 
 /// An area vector this much shorter than the root of the sum of squares it was added up from is rounding error.
@@ -36,66 +38,118 @@ struct Local<'a, S, I> {
     scale: f64,
 }
 
-impl<S: Coordinate, I: Index> Local<'_, S, I> {
+impl<'a, S: Coordinate, I: Index> Local<'a, S, I> {
+    /// None where there is no polygon.
+    fn new(points: &'a StridedPoints<'a, S>, corners: &'a [I]) -> Option<Self> {
+        if corners.len() < 3 {
+            return None;
+        }
+        let mut local = Local { points, corners, factor: 1.0, scale: 1.0 };
+        let mut extent = local.extent();
+        if extent == f64::INFINITY {
+            local.factor = 0.25;
+            extent = local.extent();
+        }
+        local.scale = extent.inverse_power_of_two();
+        Some(local)
+    }
+
     fn corner(&self, index: usize) -> DVec3 {
         self.difference(index) * self.scale
     }
+
     fn difference(&self, index: usize) -> DVec3 {
         let point = |index: usize| self.points.get(self.corners[index].widen() as usize) * self.factor;
         point(index) - point(0)
     }
+
     fn extent(&self) -> f64 {
         (1..self.corners.len()).fold(0.0, |extent, index| self.difference(index).abs().max_element().max(extent))
     }
+
+    /// Twice the area vector and its length; none where it vanishes or cancels out.
+    fn twice_area(&self) -> Option<(DVec3, f64)> {
+        let (mut twice_area, mut squares) = (DVec3::ZERO, 0.0);
+        let mut previous = self.corner(1);
+        for index in 2..self.corners.len() {
+            let corner = self.corner(index);
+            let term = previous.cross(corner);
+            twice_area += term;
+            squares += term.length_squared();
+            previous = corner;
+        }
+        // The square of a very thin polygon's area leaves the range.
+        let scale = twice_area.abs().max_element().inverse_power_of_two();
+        let length = (twice_area * scale).length() / scale;
+        (length > CANCELLED * squares.sqrt()).then_some((twice_area, length))
+    }
+
+    /// The centroid, given the unit normal and twice the area.
+    fn centroid(&self, normal: DVec3, twice_area: f64) -> DVec3 {
+        let count = self.corners.len();
+        let mean = (1..count).map(|index| self.corner(index)).sum::<DVec3>() / count as f64;
+        if count == 3 {
+            return mean;
+        }
+        let (mut moment, mut total) = (DVec3::ZERO, 0.0);
+        let mut previous = self.corner(count - 1) - mean;
+        for index in 0..count {
+            let corner = self.corner(index) - mean;
+            let signed = normal.dot(previous.cross(corner));
+            moment += (previous + corner) * signed;
+            total += signed;
+            previous = corner;
+        }
+        // The total is the area again, unless the polygon is so thin that rounding has made up either.
+        if (total - twice_area).abs() > 0.5 * twice_area {
+            return mean;
+        }
+        mean + moment / (3.0 * total)
+    }
+}
+
+/// The area vector of a polygon.
+pub(crate) struct AreaVector {
+    /// Its unit direction.
+    pub normal: DVec3,
+    /// Twice the vector, in units of which `scale` make one of the mesh.
+    twice: DVec3,
+    scale: f64,
+}
+
+impl AreaVector {
+    /// The vector in the mesh's units; infinite beyond the range.
+    pub(crate) fn in_mesh_units(&self) -> DVec3 {
+        self.twice * 0.5 / self.scale / self.scale
+    }
+}
+
+/// The area vector of the polygon with the given corners; none where it vanishes.
+pub(crate) fn area_vector<S: Coordinate, I: Index>(
+    points: &StridedPoints<'_, S>,
+    corners: &[I],
+) -> Option<AreaVector> {
+    let local = Local::new(points, corners)?;
+    let (twice, length) = local.twice_area()?;
+    Some(AreaVector { normal: twice / length, twice, scale: local.scale * local.factor })
 }
 
 /// The frame of the polygon with the given corners.
-pub(crate) fn frame<S: Coordinate, I: Index>(points: &StridedPoints<'_, S>, corners: &[I], centroid: bool) -> Frame {
-    if corners.len() < 3 {
-        return Frame::default();
-    }
-    let mut local = Local { points, corners, factor: 1.0, scale: 1.0 };
-    let mut extent = local.extent();
-    if extent == f64::INFINITY {
-        local.factor = 0.25;
-        extent = local.extent();
-    }
-    local.scale = extent.inverse_power_of_two();
-    let (mut twice_area, mut squares) = (DVec3::ZERO, 0.0);
-    let mut previous = local.corner(1);
-    for index in 2..corners.len() {
-        let corner = local.corner(index);
-        let term = previous.cross(corner);
-        twice_area += term;
-        squares += term.length_squared();
-        previous = corner;
-    }
-    let length = twice_area.length();
-    if length <= CANCELLED * squares.sqrt() {
-        return Frame::default();
-    }
+fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], centroid: bool) -> Frame {
+    let may_turn = corners.len() > 3;
+    let Some((local, (twice_area, length))) =
+        Local::new(points, corners).and_then(|local| local.twice_area().map(|area| (local, area)))
+    else {
+        return Frame { may_turn, ..Frame::default() };
+    };
     let normal = twice_area / length;
-    let centroid = if centroid { centroid_of(&local, normal) } else { DVec3::ZERO };
+    let centroid = if centroid { local.centroid(normal, length) } else { DVec3::ZERO };
     Frame {
         normal,
         size: ((0.5 * length).sqrt() / local.scale / local.factor).min(f64::MAX),
         centroid: (centroid / local.scale / local.factor).clamp(DVec3::splat(-f64::MAX), DVec3::splat(f64::MAX)),
+        may_turn,
     }
-}
-
-fn centroid_of<S: Coordinate, I: Index>(local: &Local<'_, S, I>, normal: DVec3) -> DVec3 {
-    let count = local.corners.len();
-    let mean = (1..count).map(|index| local.corner(index)).sum::<DVec3>() / count as f64;
-    let (mut moment, mut total) = (DVec3::ZERO, 0.0);
-    let mut previous = local.corner(count - 1) - mean;
-    for index in 0..count {
-        let corner = local.corner(index) - mean;
-        let signed = normal.dot(previous.cross(corner));
-        moment += (previous + corner) * signed;
-        total += signed;
-        previous = corner;
-    }
-    mean + moment / (3.0 * total)
 }
 
 /// The frames of all faces, or the means to compute each when it is met.

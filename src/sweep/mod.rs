@@ -16,17 +16,18 @@
 mod frames;
 mod ring;
 
-pub(crate) use frames::{CANCELLED, frame};
-pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch};
+pub(crate) use frames::{CANCELLED, area_vector};
+pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
-use crate::error::Error;
-use crate::parallel::{Claims, Run, for_each_chunk};
+use crate::error::{Error, filled, reserved};
+use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
 use crate::simd::{MAX_LANES, Real, Task, Vector, Vector3, Width, dispatch};
-use crate::topology::Topology;
+use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, MAX_LANE_CORNERS, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
 use frames::Frames;
 use glam::DVec3;
 use ring::{Polygon, PolygonFaces, Triangles};
+use std::sync::{Mutex, PoisonError};
 
 /// An estimator over one-rings, and where its results go.
 pub(crate) trait Quantity: Sync {
@@ -49,7 +50,7 @@ pub(crate) trait Quantity: Sync {
     fn alone<F: RingFaces<f64>>(
         &self,
         vertex: usize,
-        fans: &[Ring<'_, f64, F>],
+        fans: &VertexFans<'_, F>,
         scale: f64,
         scratch: &mut Scratch<f64>,
     );
@@ -76,8 +77,8 @@ pub(crate) fn sweep<Q: Quantity>(
     }
 }
 
-/// Refuses positions that are too few, too many or not finite, and vertices that are none. With a subset, only the
-/// positions that it needs are looked at.
+/// Refuses positions that are too few, too many or not finite, and vertices that are none. With a list of vertices, only
+/// the positions that it needs may be to blame.
 fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
     let expected = topology.vertex_count() as u64;
     if points.len() as u64 != expected {
@@ -86,28 +87,41 @@ fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32
     let Some(vertices) = vertices else {
         return points.check_finite();
     };
-    let check = |vertex: u32| {
-        let finite = points.get(vertex as usize).is_finite();
-        if finite { Ok(()) } else { Err(Error::NonFinitePosition { vertex: vertex as u64 }) }
-    };
     for (position, &vertex) in vertices.iter().enumerate() {
         if vertex as u64 >= expected {
             let (position, index) = (position as u64, vertex as i128);
             return Err(Error::IndexOutOfRange { what: "run.vertices", position, index, vertex_count: expected });
         }
     }
-    if corners_met(topology, vertices).is_none() {
-        return points.check_finite();
+    // For a long list it is cheaper to look at all positions; only if that finds one is the list gone through, each
+    // vertex and each face once.
+    let long = corners_met(topology, vertices).is_none();
+    if long && points.check_finite().is_ok() {
+        return Ok(());
     }
-    for &vertex in vertices {
+    let faces = topology.polygons().map_or(0, Polygons::face_count);
+    let mut seen =
+        [filled(if long { points.len() } else { 0 }, false)?, filled(if long { faces } else { 0 }, false)?];
+    let mut first_time = |kind: usize, index: u32| match seen[kind].get_mut(index as usize) {
+        Some(seen) => !std::mem::replace(seen, true),
+        None => true,
+    };
+    let check = |vertex: &u32| {
+        let finite = points.get(*vertex as usize).is_finite();
+        if finite { Ok(()) } else { Err(Error::NonFinitePosition { vertex: *vertex as u64 }) }
+    };
+    for vertex in vertices {
+        if !first_time(0, *vertex) {
+            continue;
+        }
         check(vertex)?;
-        let ring = topology.rings().ring_range(vertex as usize);
+        let ring = topology.rings().ring_range(*vertex as usize);
         match topology.polygons() {
-            None => topology.ring(vertex as usize).iter().try_for_each(|&neighbour| check(neighbour))?,
+            None => topology.ring(*vertex as usize).iter().try_for_each(check)?,
             Some(polygons) => {
                 for &face in polygons.corner_faces(ring) {
-                    if face != crate::topology::NO_FACE {
-                        polygons.face(face as usize).iter().try_for_each(|&corner| check(corner))?;
+                    if face != NO_FACE && first_time(1, face) {
+                        polygons.face(face as usize).iter().try_for_each(check)?;
                     }
                 }
             }
@@ -125,7 +139,7 @@ fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
             None => ring.len(),
             Some(polygons) => {
                 let corners = |&face: &u32| match face {
-                    crate::topology::NO_FACE => 0,
+                    NO_FACE => 0,
                     face => polygons.face(face as usize).len(),
                 };
                 polygons.corner_faces(ring).iter().map(corners).sum()
@@ -150,7 +164,15 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
     };
     let (vertices, level) = (run.vertices, run.level);
     let chunks = vertices.map_or(topology.rings().windows(), |vertices| vertices.len().div_ceil(WINDOW));
-    let sweep = Sweep { topology, points, frames, vertices, double, quantity };
+    // Every thread's rows are there before the first result is written.
+    let mut rows = Vec::new();
+    for _ in 0..thread_count(run.threads, chunks) {
+        rows.try_reserve(1)?;
+        // A vertex that lanes are in doubt about comes here too.
+        rows.push(Rows::<f64>::new(topology.largest_alone().max(MAX_LANE_CORNERS + 1))?);
+    }
+    let rows = Mutex::new(rows);
+    let sweep = Sweep { topology, points, frames, vertices, double, quantity, rows: &rows };
     for_each_chunk(run, chunks, |claims| dispatch(level, Worker { sweep: &sweep, claims }))
 }
 
@@ -161,6 +183,8 @@ struct Sweep<'a, Q, S> {
     vertices: Option<&'a [u32]>,
     double: bool,
     quantity: &'a Q,
+    /// One for each thread, for the vertices that are computed alone.
+    rows: &'a Mutex<Vec<Rows<f64>>>,
 }
 
 /// One thread's part of a sweep.
@@ -178,13 +202,14 @@ struct Rows<V> {
 }
 
 impl<V: Vector> Rows<V> {
-    fn new() -> Self {
-        Rows {
-            edges: vec![Vector3::zero(); MAX_LANE_CORNERS + 1],
-            squared: vec![V::zero(); MAX_LANE_CORNERS + 1],
-            faces: Vec::with_capacity(MAX_LANE_CORNERS),
-            scratch: Scratch::new(MAX_LANE_CORNERS),
-        }
+    /// Room for so many edges.
+    fn new(edges: usize) -> Result<Self, Error> {
+        Ok(Rows {
+            edges: filled(edges, Vector3::zero())?,
+            squared: filled(edges, V::zero())?,
+            faces: reserved(edges)?,
+            scratch: Scratch::new(edges)?,
+        })
     }
 }
 
@@ -193,9 +218,13 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     fn run<W: Width>(self) {
         let sweep = self.sweep;
         let single = !sweep.double && sweep.frames.is_none();
-        let mut single_rows = Rows::<W::Single>::new();
-        let mut double_rows = Rows::<W::Double>::new();
-        let mut alone_rows = Rows::<f64>::new();
+        // A few kilobytes each; the rest was reserved before the threads were started.
+        let alone_rows = sweep.rows.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let (Some(mut alone_rows), Ok(mut single_rows), Ok(mut double_rows)) =
+            (alone_rows, Rows::<W::Single>::new(MAX_LANE_CORNERS + 1), Rows::<W::Double>::new(MAX_LANE_CORNERS + 1))
+        else {
+            return self.claims.fail(Error::OutOfMemory);
+        };
         let mut batch = Batch::new();
         let mut doubtful: Vec<u32> = Vec::with_capacity(WINDOW);
         while let Some(chunk) = self.claims.next() {
@@ -288,11 +317,13 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             let mut normal = [[V::Scalar::ZERO; MAX_LANES]; 3];
             let mut centroid = [[V::Scalar::ZERO; MAX_LANES]; 3];
             let mut area = [V::Scalar::ZERO; MAX_LANES];
+            let mut may_turn = [V::Scalar::ZERO; MAX_LANES];
             for lane in 0..V::LANES {
                 let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
                 let face = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
                 let loaded = self.load_face(frames, face, vertex, 1.0, scales[lane].into());
                 area[lane] = V::Scalar::from_f64(loaded.area);
+                may_turn[lane] = if loaded.may_turn { V::Scalar::ONE } else { V::Scalar::ZERO };
                 for axis in 0..3 {
                     normal[axis][lane] = V::Scalar::from_f64(loaded.normal[axis]);
                     centroid[axis][lane] = V::Scalar::from_f64(loaded.centroid[axis]);
@@ -302,6 +333,7 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
                 normal: Vector3::from_lanes(&normal),
                 area: V::from_lanes(&area),
                 centroid: Vector3::from_lanes(&centroid),
+                may_turn: V::from_lanes(&may_turn),
             });
         }
     }
@@ -319,7 +351,7 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             let offset = frame.centroid * factor + (point(frames.first_corner(face) as usize) - point(vertex));
             centroid = offset * scale;
         }
-        LoadedFace { normal: frame.normal, area: size * size, centroid }
+        LoadedFace { normal: frame.normal, area: size * size, centroid, may_turn: frame.may_turn }
     }
 
     /// The vertex-by-vertex path.
@@ -329,13 +361,13 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
         let mut factor = 1.0;
-        let mut extent = self.load_alone(vertex, factor, edges);
+        let (mut count, mut extent) = self.load_alone(vertex, factor, edges);
         if extent == f64::INFINITY {
             factor = 0.25;
-            extent = self.load_alone(vertex, factor, edges);
+            (count, extent) = self.load_alone(vertex, factor, edges);
         }
+        let (edges, squared) = (&mut edges[..count], &mut squared[..count]);
         let scale = extent.unit_scale();
-        squared.resize(edges.len(), 0.0);
         scale_edges(edges, squared, scale);
         faces.clear();
         if let Some(frames) = &self.frames {
@@ -343,55 +375,36 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             for fan in self.topology.fans(vertex) {
                 for corner in 0..fan.corner_count {
                     let face = frames.face_of(ring_start + fan.start + corner);
-                    let LoadedFace { normal, area, centroid } = self.load_face(frames, face, vertex, factor, scale);
-                    faces.push(Polygon { normal: lane(normal), area, centroid: lane(centroid) });
+                    let face = self.load_face(frames, face, vertex, factor, scale);
+                    let may_turn = if face.may_turn { 1.0 } else { 0.0 };
+                    let (normal, centroid) = (lane(face.normal), lane(face.centroid));
+                    faces.push(Polygon { normal, area: face.area, centroid, may_turn });
                 }
             }
-        }
-        let (mut edges, mut squared, mut faces) = (edges.as_slice(), squared.as_slice(), faces.as_slice());
-        let rings: Vec<Ring<'_, f64, PolygonFaces<'_, f64>>> = self
-            .topology
-            .fans(vertex)
-            .map(|fan| {
-                scratch.grow(fan.corner_count);
-                // Triangles have none.
-                let face_count = fan.corner_count.min(faces.len());
-                let own_faces = take(&mut faces, face_count);
-                Ring {
-                    edges: take(&mut edges, fan.corner_count + 1),
-                    squared: take(&mut squared, fan.corner_count + 1),
-                    closed: fan.closed,
-                    faces: PolygonFaces(own_faces),
-                }
-            })
-            .collect();
-        if self.frames.is_some() {
-            self.quantity.alone(vertex, &rings, scale * factor, scratch);
+            let fans = VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(faces));
+            self.quantity.alone(vertex, &fans, scale * factor, scratch);
         } else {
-            let rings: Vec<_> = rings.iter().map(|ring| ring.with_faces(Triangles)).collect();
-            self.quantity.alone(vertex, &rings, scale * factor, scratch);
+            let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles);
+            self.quantity.alone(vertex, &fans, scale * factor, scratch);
         }
     }
 
-    /// Fills `edges` fan after fan, in a closed one the first again at the end; answers with their extent.
-    fn load_alone(&self, vertex: usize, factor: f64, edges: &mut Vec<Vector3<f64>>) -> f64 {
-        edges.clear();
+    /// Fills `edges` fan after fan, in a closed one the first again at the end; answers with their number and extent.
+    fn load_alone(&self, vertex: usize, factor: f64, edges: &mut [Vector3<f64>]) -> (usize, f64) {
+        let mut count = 0;
         for fan in self.topology.fans(vertex) {
-            let first = edges.len();
-            Rings::edges_of(self.points, vertex, fan.neighbours, factor, edges);
+            let first = count;
+            for edge in Rings::edges_of(self.points, vertex, fan.neighbours, factor) {
+                edges[count] = edge;
+                count += 1;
+            }
             if fan.closed {
-                edges.push(edges[first]);
+                edges[count] = edges[first];
+                count += 1;
             }
         }
-        edges.iter().fold(0.0, |extent, edge| edge.largest_component().max(extent))
+        (count, edges[..count].iter().fold(0.0, |extent, edge| edge.largest_component().max(extent)))
     }
-}
-
-/// Splits off the first `count` elements.
-fn take<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
-    let (first, others) = rest.split_at(count);
-    *rest = others;
-    first
 }
 
 /// A polygon as a vertex sees it, in the ring's units.
@@ -399,6 +412,7 @@ struct LoadedFace {
     normal: DVec3,
     area: f64,
     centroid: DVec3,
+    may_turn: bool,
 }
 
 fn lane(vector: DVec3) -> Vector3<f64> {

@@ -4,7 +4,9 @@
 //! to between 1 and 2. So nothing is lost far from the origin, and no square of a length overflows or vanishes,
 //! whatever the size of the mesh. A mesh of triangles and one of polygons differ only in [`RingFaces`].
 
+use crate::error::{Error, filled};
 use crate::simd::{Real, Vector, Vector3, atan2_and_reciprocal};
+use crate::topology::Topology;
 
 /// One fan around a vertex, in every lane.
 pub(crate) struct Ring<'a, V, F> {
@@ -33,10 +35,42 @@ impl<V: Vector, F: RingFaces<V>> Ring<'_, V, F> {
     }
 }
 
-impl<'a, V, F> Ring<'a, V, F> {
-    /// The same edges with other faces.
-    pub fn with_faces<G>(&self, faces: G) -> Ring<'a, V, G> {
-        Ring { edges: self.edges, squared: self.squared, closed: self.closed, faces }
+/// All fans of one vertex, whatever they are like.
+pub(crate) struct VertexFans<'a, F> {
+    topology: &'a Topology,
+    vertex: usize,
+    /// Fan after fan, as [`Ring::edges`].
+    edges: &'a [Vector3<f64>],
+    squared: &'a [f64],
+    /// Fan after fan.
+    faces: F,
+}
+
+impl<'a, F: RingFaces<f64>> VertexFans<'a, F> {
+    pub fn new(
+        topology: &'a Topology,
+        vertex: usize,
+        edges: &'a [Vector3<f64>],
+        squared: &'a [f64],
+        faces: F,
+    ) -> Self {
+        VertexFans { topology, vertex, edges, squared, faces }
+    }
+
+    /// The fans as rings of one lane, in the same units.
+    pub fn rings(&self) -> impl Iterator<Item = Ring<'a, f64, F>> {
+        let (mut edge, mut corner) = (0, 0);
+        self.topology.fans(self.vertex).map(move |fan| {
+            let edges = edge..edge + fan.corner_count + 1;
+            let corners = corner..corner + fan.corner_count;
+            (edge, corner) = (edges.end, corners.end);
+            Ring {
+                edges: &self.edges[edges.clone()],
+                squared: &self.squared[edges],
+                closed: fan.closed,
+                faces: self.faces.part(corners),
+            }
+        })
     }
 }
 
@@ -46,6 +80,8 @@ pub(crate) trait RingFaces<V: Vector>: Copy {
     type Face: Face<V>;
     /// The face at a corner.
     fn face(&self, index: usize) -> Self::Face;
+    /// The faces at a stretch of corners.
+    fn part(&self, corners: std::ops::Range<usize>) -> Self;
 }
 
 /// The face at a corner, in every lane. Answers are factors of [`Face::direction`], so that a triangle never has to
@@ -87,6 +123,12 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
     pub fn new(a: Vector3<V>, b: Vector3<V>, product: V, face: F) -> Self {
         let cross = a.cross(b);
         Corner { a, b, cross, cross_squared: cross.squared(), product, face }
+    }
+    /// `|a × b|`; 0 where its square has lost the digits of the root.
+    #[inline(always)]
+    fn cross_length(&self) -> V {
+        let kept = V::splat(V::Scalar::TINY).lt(self.cross_squared);
+        V::select(kept, self.cross_squared, V::zero()).sqrt()
     }
     /// [`Face::direction`]
     #[inline(always)]
@@ -143,6 +185,9 @@ impl<V: Vector> RingFaces<V> for Triangles {
     fn face(&self, _index: usize) -> Triangle {
         Triangle
     }
+    fn part(&self, _corners: std::ops::Range<usize>) -> Self {
+        Triangles
+    }
 }
 
 /// The triangle of a corner; its direction is `a × b`.
@@ -156,11 +201,11 @@ impl<V: Vector> Face<V> for Triangle {
     }
     #[inline(always)]
     fn unit(&self, corner: &Corner<V, Self>) -> V {
-        corner.cross_squared.sqrt().reciprocal_or_zero()
+        corner.cross_length().reciprocal_or_zero()
     }
     #[inline(always)]
     fn unit_and_angle(&self, corner: &Corner<V, Self>) -> (V, V) {
-        let (angle, unit) = atan2_and_reciprocal(corner.cross_squared.sqrt(), corner.a.dot(corner.b));
+        let (angle, unit) = atan2_and_reciprocal(corner.cross_length(), corner.a.dot(corner.b));
         (unit, angle)
     }
     #[inline(always)]
@@ -187,6 +232,9 @@ impl<V: Vector> RingFaces<V> for PolygonFaces<'_, V> {
     fn face(&self, index: usize) -> Polygon<V> {
         self.0[index]
     }
+    fn part(&self, corners: std::ops::Range<usize>) -> Self {
+        PolygonFaces(&self.0[corners])
+    }
 }
 
 /// A polygon in the ring's units; its direction is its unit normal.
@@ -198,6 +246,8 @@ pub(crate) struct Polygon<V> {
     pub area: V,
     /// From the vertex to the centroid; zero where no estimator asks for it.
     pub centroid: Vector3<V>,
+    /// 1 if a corner may be reflex, 0 at a triangle, whose corners only rounding could turn.
+    pub may_turn: V,
 }
 
 impl<V: Vector> Face<V> for Polygon<V> {
@@ -211,9 +261,9 @@ impl<V: Vector> Face<V> for Polygon<V> {
     }
     #[inline(always)]
     fn unit_and_angle(&self, corner: &Corner<V, Self>) -> (V, V) {
-        let (angle, _) = atan2_and_reciprocal(corner.cross_squared.sqrt(), corner.a.dot(corner.b));
+        let (angle, _) = atan2_and_reciprocal(corner.cross_length(), corner.a.dot(corner.b));
         // A reflex corner turns against the normal.
-        let reflex = corner.cross.dot(self.normal).lt(V::zero());
+        let reflex = (corner.cross.dot(self.normal) * self.may_turn).lt(V::zero());
         (V::one(), V::select(reflex, V::constant(std::f64::consts::TAU) - angle, angle))
     }
     #[inline(always)]
@@ -222,7 +272,7 @@ impl<V: Vector> Face<V> for Polygon<V> {
     }
     #[inline(always)]
     fn sine_product(&self, corner: &Corner<V, Self>) -> V {
-        corner.cross_squared.sqrt()
+        corner.cross_length()
     }
     #[inline(always)]
     fn centroid_squared(&self, _corner: &Corner<V, Self>) -> V {
@@ -240,20 +290,9 @@ pub(crate) struct Scratch<V> {
 
 impl<V: Vector> Scratch<V> {
     /// Room for `corners` corners.
-    pub fn new(corners: usize) -> Self {
-        let mut scratch = Scratch { vectors: Vec::new(), numbers: [const { Vec::new() }; 3] };
-        scratch.grow(corners);
-        scratch
-    }
-
-    /// Room for `corners` corners, if there is less.
-    pub fn grow(&mut self, corners: usize) {
+    pub fn new(corners: usize) -> Result<Self, Error> {
         let length = corners + 2;
-        if self.vectors.len() < length {
-            self.vectors.resize(length, Vector3::zero());
-            for row in &mut self.numbers {
-                row.resize(length, V::zero());
-            }
-        }
+        let row = || filled(length, V::zero());
+        Ok(Scratch { vectors: filled(length, Vector3::zero())?, numbers: [row()?, row()?, row()?] })
     }
 }

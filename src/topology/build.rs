@@ -185,15 +185,16 @@ fn finish(
     })?;
     // Only vertices that the sweep takes one by one need their fans spelt out.
     let mut rest = fans.as_slice();
-    let mut kept = Vec::new();
+    let (mut kept, mut largest_alone) = (Vec::new(), 0);
     for vertex in 0..rings.vertex_count() {
         let found = take_fans(&mut rest, vertex);
         if rings.class(vertex) == RingClass::Alone {
             kept.try_reserve(found.len().max(1))?;
+            largest_alone = largest_alone.max(rings.ring(vertex).len() + found.len().max(1));
             match found {
                 [] => {
                     let corners = rings.ring(vertex).len() as u32;
-                    kept.push(FanRecord { vertex: vertex as u32, corners, closed: true });
+                    kept.push(FanRecord { vertex: vertex as u32, start: 0, corners, closed: true });
                 }
                 found => kept.extend_from_slice(found),
             }
@@ -201,7 +202,7 @@ fn finish(
     }
     kept.shrink_to_fit();
     let defects = Defects { face_count, used_faces, degenerate_faces, ..defects };
-    Ok(Topology { rings, flags, fans: kept, polygons, defects })
+    Ok(Topology { rings, flags, fans: kept, polygons, largest_alone, defects })
 }
 
 /// Splits off the fans of `vertex`, which come next if it has any.

@@ -7,13 +7,15 @@
 use super::flat::{Flat, NO_FACE, Record};
 use super::polygons::Polygons;
 use super::stats::Defects;
-use super::status;
+use super::{Fan, status};
 use crate::error::Error;
 
 /// A fan of a vertex that is not a lone closed one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FanRecord {
     pub vertex: u32,
+    /// Where it starts in the ring of the vertex.
+    pub start: u32,
     pub corners: u32,
     pub closed: bool,
 }
@@ -22,6 +24,13 @@ impl FanRecord {
     /// How many neighbours the fan has in the ring.
     pub fn entries(&self) -> usize {
         self.corners as usize + !self.closed as usize
+    }
+
+    /// The fan in the ring of its vertex.
+    pub fn fan<'a>(&self, ring: &'a [u32]) -> Fan<'a> {
+        let start = self.start as usize;
+        let neighbours = &ring[start..start + self.entries()];
+        Fan { neighbours, corner_count: self.corners as usize, closed: self.closed, start }
     }
 }
 
@@ -37,6 +46,8 @@ pub(super) struct FanBuilder<'a> {
     /// Whether a corner follows another that has not been emitted yet, or has been emitted itself.
     taken: Vec<bool>,
     fans: Vec<FanRecord>,
+    /// Polygons that share an edge in the same direction with another: duplicates are among them.
+    suspects: Vec<u32>,
     defects: Defects,
 }
 
@@ -49,6 +60,7 @@ impl<'a> FanBuilder<'a> {
             successor: Vec::new(),
             taken: Vec::new(),
             fans: Vec::new(),
+            suspects: Vec::new(),
             defects: Defects::default(),
         }
     }
@@ -70,14 +82,15 @@ impl<'a> FanBuilder<'a> {
         self.by_next.sort_unstable_by_key(|&corner| (records[corner as usize].next(), corner));
         self.by_prev.sort_unstable_by_key(|&corner| (records[corner as usize].prev(), corner));
 
-        let mut flags = self.join(vertex, records);
+        let mut flags = self.join(vertex, records)?;
         let first = self.fans.len();
+        let ring_start = flat.length;
         // Open fans start at a corner that follows none; what is left after them are closed ones.
         for open in [true, false] {
             for corner in 0..count {
                 let starts = if open { !self.taken[corner] } else { self.successor[corner] != NONE };
                 if starts {
-                    self.emit(vertex, records, corner, !open, flat)?;
+                    self.emit(vertex, records, corner, !open, ring_start, flat)?;
                 }
             }
         }
@@ -88,7 +101,7 @@ impl<'a> FanBuilder<'a> {
     }
 
     /// Finds each corner's successor, and counts what is wrong with the edges.
-    fn join<R: Record>(&mut self, vertex: u32, records: &[R]) -> u8 {
+    fn join<R: Record>(&mut self, vertex: u32, records: &[R]) -> Result<u8, Error> {
         let mut flags = 0;
         let (mut out, mut into) = (self.by_next.as_slice(), self.by_prev.as_slice());
         let mut repeated = false;
@@ -123,9 +136,9 @@ impl<'a> FanBuilder<'a> {
             into = &into[incoming..];
         }
         if repeated {
-            self.count_duplicates(vertex, records);
+            self.find_duplicates(vertex, records)?;
         }
-        flags
+        Ok(flags)
     }
 
     /// Writes the fan that starts at `corner`.
@@ -135,8 +148,10 @@ impl<'a> FanBuilder<'a> {
         records: &[R],
         corner: usize,
         closed: bool,
+        ring_start: usize,
         flat: &mut Flat,
     ) -> Result<(), Error> {
+        let start = flat.length - ring_start;
         let mut corners = 0;
         let mut current = corner;
         loop {
@@ -154,39 +169,68 @@ impl<'a> FanBuilder<'a> {
         if !closed {
             flat.push(records[current].prev(), NO_FACE)?;
         }
-        self.fans.push(FanRecord { vertex, corners, closed });
+        self.fans.push(FanRecord { vertex, start: start as u32, corners, closed });
         Ok(())
     }
 
-    /// Counts faces that repeat an earlier one, at their lowest vertex.
-    fn count_duplicates<R: Record>(&mut self, vertex: u32, records: &[R]) {
-        // A triangle is told by its two other corners; a polygon by all of them, from `vertex` on.
-        let polygons = self.polygons;
-        let face = |corner: u32| match (polygons, records[corner as usize].face()) {
-            (Some(polygons), Some(face)) => polygons.face(face as usize),
-            _ => &[],
+    /// Counts triangles that repeat an earlier one, at their lowest vertex, where they are told by their two other
+    /// corners; collects polygons that may.
+    fn find_duplicates<R: Record>(&mut self, vertex: u32, records: &[R]) -> Result<(), Error> {
+        let next = |corner: &u32| records[*corner as usize].next();
+        for run in self.by_next.chunk_by_mut(|a, b| next(a) == next(b)).filter(|run| run.len() > 1) {
+            if R::HAS_FACE {
+                self.suspects.try_reserve(run.len())?;
+                self.suspects.extend(run.iter().filter_map(|&corner| records[corner as usize].face()));
+            } else if vertex < next(&run[0]) {
+                run.sort_unstable_by_key(|&corner| records[corner as usize].prev());
+                let prevs = run.windows(2).map(|pair| [0, 1].map(|i| records[pair[i] as usize].prev()));
+                self.defects.duplicate_faces += prevs.filter(|[a, b]| a == b && vertex < *a).count();
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts polygons that repeat an earlier one, among those that share an edge in the same direction with another.
+    fn count_duplicate_polygons(&mut self) {
+        let Some(polygons) = self.polygons else { return };
+        self.suspects.sort_unstable();
+        self.suspects.dedup();
+        // Each starts at its least rotation, so that equal loops are equal sequences.
+        let least = |face: u32| {
+            let corners = polygons.face(face as usize);
+            let (tail, head) = corners.split_at(least_rotation(corners));
+            head.iter().chain(tail)
         };
-        let key = |corner: u32| {
-            let record = records[corner as usize];
-            let corners = face(corner);
-            let start = corners.iter().position(|&other| other == vertex).unwrap_or(0);
-            let around = corners[start..].iter().chain(&corners[..start]).copied();
-            (record.next(), record.prev(), around)
-        };
-        let compare = |a: u32, b: u32| {
-            let (a, b) = (key(a), key(b));
-            (a.0, a.1).cmp(&(b.0, b.1)).then_with(|| a.2.cmp(b.2))
-        };
-        self.by_next.sort_unstable_by(|&a, &b| compare(a, b));
-        let lowest = |corner: u32| {
-            let record = records[corner as usize];
-            vertex < record.next().min(record.prev()) && face(corner).iter().all(|&other| vertex <= other)
-        };
-        let repeats = self.by_next.windows(2).filter(|pair| compare(pair[0], pair[1]).is_eq() && lowest(pair[0]));
+        let starts_alike = |a: &u32, b: &u32| polygons.face(*a as usize).len().cmp(&polygons.face(*b as usize).len());
+        self.suspects.sort_by(|a, b| starts_alike(a, b).then_with(|| least(*a).cmp(least(*b))));
+        let repeats = self.suspects.windows(2).filter(|pair| least(pair[0]).eq(least(pair[1])));
         self.defects.duplicate_faces += repeats.count();
     }
 
-    pub fn finish(self) -> (Vec<FanRecord>, Defects) {
+    pub fn finish(mut self) -> (Vec<FanRecord>, Defects) {
+        self.count_duplicate_polygons();
         (self.fans, self.defects)
     }
+}
+
+/// Where the lexicographically least rotation of a loop starts, in linear time: two candidates run side by side, and the
+/// one that loses a comparison gives way together with all starts that it has passed.
+fn least_rotation(corners: &[u32]) -> usize {
+    let count = corners.len();
+    let (mut best, mut other, mut length) = (0, 1, 0);
+    while best < count && other < count && length < count {
+        let (a, b) = (corners[(best + length) % count], corners[(other + length) % count]);
+        if a == b {
+            length += 1;
+            continue;
+        }
+        if a > b {
+            best += length + 1;
+        } else {
+            other += length + 1;
+        }
+        other += (best == other) as usize;
+        length = 0;
+    }
+    best.min(other)
 }

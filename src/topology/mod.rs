@@ -11,7 +11,7 @@ pub use stats::TopologyStats;
 pub(crate) use flat::NO_FACE;
 pub(crate) use polygons::Polygons;
 
-use crate::error::Error;
+use crate::error::{Error, reserved};
 use crate::view::{Faces, RingClass, Rings};
 use fans::FanRecord;
 
@@ -49,6 +49,8 @@ pub struct Topology {
     fans: Vec<FanRecord>,
     /// The faces, where there are others than triangles.
     polygons: Option<Polygons>,
+    /// See [`Topology::largest_alone`].
+    largest_alone: usize,
     defects: stats::Defects,
 }
 
@@ -68,13 +70,25 @@ pub struct Fan<'a> {
 /// The largest number of vertices; one less than the number of 32-bit values, which serve as indices.
 const MAX_VERTICES: u64 = u32::MAX as u64;
 
+/// The largest number of faces, empty ones included.
+const MAX_FACES: u64 = u32::MAX as u64;
+
+/// A sorted copy.
+fn sorted(ring: &[u32]) -> Result<Vec<u32>, Error> {
+    let mut copy = reserved(ring.len())?;
+    copy.extend_from_slice(ring);
+    copy.sort_unstable();
+    Ok(copy)
+}
+
 impl Topology {
     /// Builds the one-rings of `faces` over `vertex_count` vertices.
     ///
     /// Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices.
     ///
     /// # Errors
-    /// [`Error::IndexOutOfRange`]; [`Error::TooLarge`] beyond 2³² − 1 vertices or ring entries;
+    /// [`Error::IndexOutOfRange`]; [`Error::TooLarge`] beyond 2³² − 1 vertices or faces, or 2³¹ − 1
+    /// corners;
     /// [`Error::OutOfMemory`].
     pub fn new(faces: &Faces<'_>, vertex_count: usize) -> Result<Self, Error> {
         if vertex_count as u64 > MAX_VERTICES {
@@ -84,6 +98,9 @@ impl Topology {
         // An open fan has one entry more than corners, so there are at most twice as many entries.
         if corner_count > u32::MAX as u64 / 2 {
             return Err(Error::TooLarge { what: "corners", found: corner_count, limit: u32::MAX as u64 / 2 });
+        }
+        if faces.len() as u64 > MAX_FACES {
+            return Err(Error::TooLarge { what: "faces", found: faces.len() as u64, limit: MAX_FACES });
         }
         faces.indices().check_range("faces.indices", vertex_count)?;
         build::build(faces, vertex_count)
@@ -112,16 +129,16 @@ impl Topology {
         self.rings.ring(vertex)
     }
 
-    /// The number of edges at a vertex.
-    pub fn valence(&self, vertex: usize) -> usize {
+    /// The number of edges at a vertex. At a vertex with several fans this sorts a copy of its ring.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`]
+    pub fn valence(&self, vertex: usize) -> Result<usize, Error> {
         let ring = self.ring(vertex);
-        if self.rings.class(vertex) != RingClass::Alone {
-            return ring.len();
+        if self.fan_count(vertex) <= 1 {
+            return Ok(ring.len());
         }
-        let mut neighbours = ring.to_vec();
-        neighbours.sort_unstable();
-        neighbours.dedup();
-        neighbours.len()
+        Ok(sorted(ring)?.chunk_by(|a, b| a == b).count())
     }
 
     /// The number of fans of a vertex: 1 at a manifold vertex, 0 at an isolated one.
@@ -134,8 +151,16 @@ impl Topology {
     }
 
     /// The fans of a vertex.
-    pub fn fans(&self, vertex: usize) -> impl ExactSizeIterator<Item = Fan<'_>> {
-        (0..self.fan_count(vertex)).map(move |index| self.fan(vertex, index))
+    pub fn fans(&self, vertex: usize) -> impl Iterator<Item = Fan<'_>> {
+        let ring = self.ring(vertex);
+        let (single, several) = match self.rings.class(vertex) {
+            RingClass::Isolated => (None, &[][..]),
+            RingClass::Lanes { corners, closed } => {
+                (Some(FanRecord { vertex: vertex as u32, start: 0, corners: corners as u32, closed }), &[][..])
+            }
+            RingClass::Alone => (None, self.fan_records(vertex)),
+        };
+        single.into_iter().chain(several.iter().copied()).map(move |record| record.fan(ring))
     }
 
     /// A fan of a vertex.
@@ -143,23 +168,9 @@ impl Topology {
     /// # Panics
     /// Where `index` is not below [`Topology::fan_count`].
     pub fn fan(&self, vertex: usize, index: usize) -> Fan<'_> {
-        let ring = self.ring(vertex);
         match self.rings.class(vertex) {
-            RingClass::Lanes { corners, closed } if index == 0 => {
-                Fan { neighbours: ring, corner_count: corners, closed, start: 0 }
-            }
-            RingClass::Alone => {
-                let records = self.fan_records(vertex);
-                let start: usize = records[..index].iter().map(FanRecord::entries).sum();
-                let fan = records[index];
-                Fan {
-                    neighbours: &ring[start..start + fan.entries()],
-                    corner_count: fan.corners as usize,
-                    closed: fan.closed,
-                    start,
-                }
-            }
-            _ => panic!("vertex {vertex} has no fan {index}"),
+            RingClass::Alone => self.fan_records(vertex)[index].fan(self.ring(vertex)),
+            _ => self.fans(vertex).nth(index).unwrap_or_else(|| panic!("vertex {vertex} has no fan {index}")),
         }
     }
 
@@ -167,6 +178,11 @@ impl Topology {
         let first = self.fans.partition_point(|fan| (fan.vertex as usize) < vertex);
         let count = self.fans[first..].partition_point(|fan| fan.vertex as usize == vertex);
         &self.fans[first..first + count]
+    }
+
+    /// The most edges, a closed fan's first counted twice, that a vertex of [`RingClass::Alone`] has.
+    pub(crate) fn largest_alone(&self) -> usize {
+        self.largest_alone
     }
 
     /// Heap memory held, in bytes.

@@ -1,6 +1,6 @@
 //! Counts of a mesh: elements, defects, components, boundary loops.
 
-use super::{Topology, status};
+use super::{Topology, sorted, status};
 use crate::error::{Error, filled};
 
 /// Counted while the rings are built.
@@ -46,9 +46,9 @@ pub struct TopologyStats {
     pub ignored_faces: usize,
     /// Faces that run through the same vertices in the same order as an earlier one. They count like any other.
     pub duplicate_faces: usize,
-    /// Pieces that no edge connects, isolated vertices not counted.
+    /// Pieces, connected through shared vertices; isolated vertices are not counted.
     pub component_count: usize,
-    /// Closed loops of boundary edges.
+    /// Closed loops of edges with one face. At a vertex with several fans the loop follows the fan.
     pub boundary_loops: usize,
     /// Vertices that have faces, minus edges, plus faces that are not ignored.
     pub euler_characteristic: i64,
@@ -81,7 +81,7 @@ impl Topology {
         };
         let mut ends = 0;
         for (vertex, &flags) in self.flags.iter().enumerate() {
-            let valence = self.valence(vertex);
+            let valence = self.valence(vertex)?;
             ends += valence;
             stats.max_valence = stats.max_valence.max(valence);
             stats.isolated_vertices += (flags & status::ISOLATED != 0) as usize;
@@ -131,10 +131,18 @@ impl Topology {
             if flags & status::BOUNDARY == 0 {
                 continue;
             }
+            // An edge with one face ends one fan; with more it stands in the ring as often as it has sides there.
+            let ring = if self.fan_count(vertex) > 1 { sorted(self.ring(vertex))? } else { Vec::new() };
+            let on_boundary = |edge: u32| {
+                let first = ring.partition_point(|&other| other < edge);
+                ring.get(first + 1) != Some(&edge)
+            };
             for fan in self.fans(vertex) {
-                if let (false, [first, .., last]) = (fan.closed, fan.neighbours) {
+                if let (false, &[first, .., last]) = (fan.closed, fan.neighbours)
+                    && on_boundary(last)
+                {
                     open.try_reserve(1)?;
-                    open.push(Open { vertex: vertex as u32, first: *first, last: *last, visited: false });
+                    open.push(Open { vertex: vertex as u32, first, last, visited: false });
                 }
             }
         }

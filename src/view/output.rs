@@ -6,9 +6,6 @@ use crate::simd::Real;
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 
-// An f64 of the caller is stored through an atomic of 64 bits, which must not ask for more alignment.
-const _: () = assert!(align_of::<AtomicU64>() == align_of::<f64>() || cfg!(target_arch = "x86"));
-
 /// A borrowed array of `#V × 3` scalars to write, `f32` or `f64`, at any byte stride.
 ///
 /// Stores are relaxed atomics (plain moves on every CPU), so that two threads that write the same value to the same
@@ -116,7 +113,7 @@ impl<'a> Output<'a> {
         let element = self.element(index).cast::<u64>();
         for (axis, x) in value.into_iter().enumerate() {
             // SAFETY: three aligned f64 start at the element, in memory that is ours to write.
-            unsafe { AtomicU64::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
+            unsafe { store_double(element.add(axis), x.to_bits()) };
         }
     }
 }
@@ -132,6 +129,24 @@ impl<'a> From<&'a mut [[f64; 3]]> for Output<'a> {
     fn from(slice: &'a mut [[f64; 3]]) -> Self {
         let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
         Output { base, count, stride: size_of::<[f64; 3]>(), double: true, memory: PhantomData }
+    }
+}
+
+/// Stores the bits of an `f64`.
+///
+/// # Safety
+/// `place` is a writable `f64`, aligned as one.
+#[inline(always)]
+unsafe fn store_double(place: *mut u64, bits: u64) {
+    // SAFETY: the caller's word; where an f64 is less aligned than the atomic of its size, its halves are stored.
+    unsafe {
+        if align_of::<f64>() == align_of::<AtomicU64>() {
+            AtomicU64::from_ptr(place).store(bits, Relaxed);
+        } else {
+            let halves: [u32; 2] = std::mem::transmute(bits.to_ne_bytes());
+            AtomicU32::from_ptr(place.cast()).store(halves[0], Relaxed);
+            AtomicU32::from_ptr(place.cast::<u32>().add(1)).store(halves[1], Relaxed);
+        }
     }
 }
 

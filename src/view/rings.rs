@@ -68,7 +68,10 @@ impl RingClass {
     fn code(self) -> u8 {
         match self {
             RingClass::Isolated => 0,
-            RingClass::Lanes { corners, closed } => (2 * corners - closed as usize) as u8,
+            RingClass::Lanes { corners, closed } => {
+                assert!((1..=MAX_LANE_CORNERS).contains(&corners));
+                (2 * corners - closed as usize) as u8
+            }
             RingClass::Alone => ALONE,
         }
     }
@@ -304,19 +307,18 @@ impl Rings {
         }
     }
 
-    /// The vectors from a vertex to `ring`, each point multiplied by `factor` first; one lane, any number.
+    /// The vectors from a vertex to `ring`, each point multiplied by `factor` first, in `f64`.
     pub(crate) fn edges_of<S: Coordinate>(
         points: &StridedPoints<'_, S>,
         vertex: usize,
         ring: &[u32],
         factor: f64,
-        edges: &mut Vec<Vector3<f64>>,
-    ) {
+    ) -> impl Iterator<Item = Vector3<f64>> {
         let centre = points.get(vertex) * factor;
-        edges.extend(ring.iter().map(|&neighbour| {
+        ring.iter().map(move |&neighbour| {
             let edge = points.get(neighbour as usize) * factor - centre;
             Vector3 { x: edge.x, y: edge.y, z: edge.z }
-        }));
+        })
     }
 }
 

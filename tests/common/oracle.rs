@@ -73,20 +73,22 @@ impl<'a> Oracle<'a> {
         scale(sum, 0.5)
     }
 
-    /// The centroid of the face's area, from `vertex`.
+    /// The centroid of the face's area, from `vertex`: of the fan of triangles around the mean of its corners, each
+    /// counted by its signed area; the mean where there is no more to a face than three corners.
     fn centroid(&self, face: usize, vertex: usize) -> Vector {
-        let normal = unit(self.area_vector(face));
+        let area_vector = self.area_vector(face);
         let face = &self.faces[face];
         let relative = |index: usize| sub(self.point(face[index % face.len()]), self.mesh.positions[vertex]);
         let mean = scale((0..face.len()).fold([0.0; 3], |sum, k| add(sum, relative(k))), 1.0 / face.len() as f64);
-        let (mut moment, mut total) = ([0.0; 3], 0.0);
-        for k in 0..face.len() {
-            let (a, b) = (sub(relative(k), mean), sub(relative(k + 1), mean));
-            let area = dot(normal, cross(a, b)) / 2.0;
-            moment = add(moment, scale(add(a, b), area / 3.0));
-            total += area;
+        if face.len() == 3 {
+            return mean;
         }
-        add(mean, scale(moment, 1.0 / total))
+        // Sum of signed areas times triangle centroids, divided by the whole area, which the area vector knows.
+        let whole = dot(area_vector, area_vector);
+        (0..face.len()).fold([0.0; 3], |sum, k| {
+            let share = dot(area_vector, cross(sub(relative(k), mean), sub(relative(k + 1), mean))) / 2.0 / whole;
+            add(sum, scale(add(add(relative(k), relative(k + 1)), mean), share / 3.0))
+        })
     }
 
     /// Both edges, the interior angle, the unit normal of the face, and its area.
