@@ -9,8 +9,9 @@
  * offending element. Outputs are written only on success. Structs of options and outputs start with their size and may
  * be all zero; a program built against this header runs with any later library of the same UMB_ABI_VERSION.
  *
- * There is no global state: all functions may be called from any thread at any time, and a const handle may be used by
- * many at once. Nothing is printed, no signal is touched, no thread outlives the call that started it. A host that sets
+ * All functions may be called from any thread at any time, and a const handle may be used by many at once. There is no
+ * global state but a hook of the library's own runtime, which keeps a caught defect (UMB_ERROR_INTERNAL) from being printed.
+ * No signal is touched, no thread outlives the call that started it. A host that sets
  * the CPU to flush subnormal numbers to zero changes results below 1e-38 (float) and 1e-308 (double).
  *
  * This file is generated; see cbindgen.toml.
@@ -453,8 +454,9 @@ typedef struct umb_normal_outputs {
   struct umb_output normal;
   /**
    * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
-   * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Beyond the
-   * scalar's range its largest value stands.
+   * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
+   * status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
+   * stands.
    */
   struct umb_output sum;
   /**
@@ -633,9 +635,11 @@ typedef struct umb_face_outputs {
 #define UMB_SIMD_AVX512 4
 
 /**
- * N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates,
- * which combine edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / a. The default; the
- * best one-ring average on irregular smooth meshes.
+ * N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates.
+ * Edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / (length of the edge), where alpha_i
+ * is 2 pi theta_i / (sum of theta) in a closed fan and theta_i in an open one, held just below pi; beyond the ends of an open
+ * fan there is no tangent, and its end edges have the normal of their one face. The default; the best one-ring average on
+ * irregular smooth meshes.
  */
 #define UMB_WEIGHT_CONFORMAL 0
 
@@ -836,8 +840,8 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  *
  * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
  * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
- * sums of all fans are added. Faces without area, edges without length and pairs of opposite faces drop out of a sum; if
- * nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
+ * sums of all fans are added. Faces whose area is exactly zero, edges without length and pairs of opposite faces drop out
+ * of a sum (a face that is thin to rounding counts, with the normal that its coordinates give); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
@@ -848,7 +852,7 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
  *
  * @param topology the handle
- * @param points the positions of all its vertices; read only during the call
+ * @param points the positions of all its vertices, as many as the topology has; read only during the call
  * @param options may be null
  * @param outputs where results go; each has an element for every vertex. Written only if the call succeeds, or, after
  * a cancel, in part

@@ -5,37 +5,30 @@ use std::mem::{offset_of, size_of};
 use std::process::Command;
 use umbilic::capi::*;
 
-/// `struct: size, field offset …`; `tests/c/layout.c` holds C to the same numbers.
+/// `struct: size, field offset …`
+macro_rules! layout {
+    ($name:ident: $size:literal, $($field:ident $offset:literal),*) => {
+        assert_eq!(size_of::<$name>(), $size, stringify!($name));
+        $(assert_eq!(offset_of!($name, $field), $offset, concat!(stringify!($name), ".", stringify!($field)));)*
+    };
+}
+
+/// Every field of every struct; `tests/c/layout.c` holds C to the same numbers.
 #[test]
 fn layouts() {
-    assert_eq!((size_of::<umb_points>(), size_of::<umb_faces>(), size_of::<umb_output>()), (32, 40, 24));
-    assert_eq!((size_of::<umb_status_output>(), size_of::<umb_run>(), size_of::<umb_fan>()), (16, 40, 32));
-    assert_eq!((size_of::<umb_error>(), size_of::<umb_topology_stats>()), (256, 152));
-    assert_eq!((size_of::<umb_topology_options>(), size_of::<umb_normal_options>()), (8, 48));
-    assert_eq!((size_of::<umb_normal_outputs>(), size_of::<umb_face_options>()), (72, 48));
-    assert_eq!(size_of::<umb_face_outputs>(), 72);
-    assert_eq!([offset_of!(umb_points, stride), offset_of!(umb_points, scalar)], [16, 24]);
-    assert_eq!(
-        [offset_of!(umb_faces, offsets), offset_of!(umb_faces, index), offset_of!(umb_faces, arity)],
-        [16, 32, 36]
-    );
-    assert_eq!(
-        [offset_of!(umb_run, vertices), offset_of!(umb_run, progress), offset_of!(umb_run, user)],
-        [8, 24, 32]
-    );
-    assert_eq!([offset_of!(umb_error, element), offset_of!(umb_error, message)], [8, 16]);
-    assert_eq!([offset_of!(umb_normal_options, weight), offset_of!(umb_normal_options, run)], [4, 8]);
-    let outputs = [
-        offset_of!(umb_normal_outputs, normal),
-        offset_of!(umb_normal_outputs, sum),
-        offset_of!(umb_normal_outputs, status),
-    ];
-    assert_eq!(outputs, [8, 32, 56]);
-    assert_eq!([offset_of!(umb_fan, corner_count), offset_of!(umb_fan, closed)], [16, 24]);
-    assert_eq!(
-        [offset_of!(umb_topology_stats, euler_characteristic), offset_of!(umb_topology_stats, bytes)],
-        [128, 144]
-    );
+    layout!(umb_error: 256, struct_size 0, status 4, element 8, message 16);
+    layout!(umb_face_options: 48, struct_size 0, reserved 4, run 8);
+    layout!(umb_face_outputs: 72, struct_size 0, reserved 4, normal 8, area_vector 32, status 56);
+    layout!(umb_faces: 40, indices 0, index_count 8, offsets 16, face_count 24, index 32, arity 36);
+    layout!(umb_fan: 32, neighbours 0, neighbour_count 8, corner_count 16, closed 24, reserved 28);
+    layout!(umb_normal_options: 48, struct_size 0, weight 4, run 8);
+    layout!(umb_normal_outputs: 72, struct_size 0, reserved 4, normal 8, sum 32, status 56);
+    layout!(umb_output: 24, data 0, stride 8, scalar 16, reserved 20);
+    layout!(umb_points: 32, data 0, count 8, stride 16, scalar 24, reserved 28);
+    layout!(umb_run: 40, threads 0, simd 4, vertices 8, vertex_count 16, progress 24, user 32);
+    layout!(umb_status_output: 16, data 0, stride 8);
+    layout!(umb_topology_options: 8, struct_size 0, reserved 4);
+    layout!(umb_topology_stats: 152, struct_size 0, reserved 4, vertex_count 8, face_count 16, corner_count 24, edge_count 32, boundary_edges 40, non_manifold_edges 48, winding_edges 56, isolated_vertices 64, boundary_vertices 72, non_manifold_vertices 80, degenerate_faces 88, ignored_faces 96, duplicate_faces 104, component_count 112, boundary_loops 120, euler_characteristic 128, max_valence 136, bytes 144);
 }
 
 /// Exactly the functions of the list are exported, under the shared library's own name. `UMBILIC_LIBRARY` names the

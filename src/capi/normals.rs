@@ -13,9 +13,11 @@ use std::mem::offset_of;
 /// N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
 /// polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
 pub type umb_weight = u32;
-/// N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates,
-/// which combine edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / a. The default; the
-/// best one-ring average on irregular smooth meshes.
+/// N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates.
+/// Edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / (length of the edge), where alpha_i
+/// is 2 pi theta_i / (sum of theta) in a closed fan and theta_i in an open one, held just below pi; beyond the ends of an open
+/// fan there is no tangent, and its end edges have the normal of their one face. The default; the best one-ring average on
+/// irregular smooth meshes.
 pub const UMB_WEIGHT_CONFORMAL: umb_weight = 0;
 /// 1 (Gouraud 1971, N_G).
 pub const UMB_WEIGHT_UNIFORM: umb_weight = 1;
@@ -59,8 +61,9 @@ pub struct umb_normal_outputs {
     /// Unit normals, `#V x 3`; (0, 0, 0) where the status says isolated or degenerate.
     pub normal: umb_output,
     /// The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
-    /// and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Beyond the
-    /// scalar's range its largest value stands.
+    /// and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
+    /// status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
+    /// stands.
     pub sum: umb_output,
     /// `UMB_VERTEX_` bits, `#V`.
     pub status: umb_status_output,
@@ -98,8 +101,8 @@ pub struct umb_face_outputs {
 ///
 /// Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
 /// vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
-/// sums of all fans are added. Faces without area, edges without length and pairs of opposite faces drop out of a sum; if
-/// nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
+/// sums of all fans are added. Faces whose area is exactly zero, edges without length and pairs of opposite faces drop out
+/// of a sum (a face that is thin to rounding counts, with the normal that its coordinates give); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
 /// `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
 ///
 /// Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
@@ -110,7 +113,7 @@ pub struct umb_face_outputs {
 /// Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
 ///
 /// @param topology the handle
-/// @param points the positions of all its vertices; read only during the call
+/// @param points the positions of all its vertices, as many as the topology has; read only during the call
 /// @param options may be null
 /// @param outputs where results go; each has an element for every vertex. Written only if the call succeeds, or, after
 /// a cancel, in part

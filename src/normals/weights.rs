@@ -21,7 +21,8 @@
 //!
 //! Numerical notes: for a triangle `|a × b| = a b sin θ`, so most weights are a factor of the cross product and cost
 //! no square root; the angle is `atan2(|a × b|, a·b)`, accurate for slivers.
-//! Degenerate rule: a face without a normal, and a weight that would divide by zero, add nothing.
+//! Degenerate rule: a face without a normal, and a weight that would divide by zero, add nothing. Where lengths around
+//! a vertex differ by more than about 1e60, the shorter ones count as zero.
 //! Cost: one pass over the ring; at most two square roots and two divisions a corner.
 
 use super::sum::{Estimator, Sum};
