@@ -2,7 +2,7 @@
 """Compares the vertex normals of umbilic with those of libigl and of VCG (through PyMeshLab) on real meshes.
 
     pip install -r tests/peers/requirements.txt
-    python3 tests/peers/peers.py target/release/libumbilic.so "$(tests/peers/meshes.sh /tmp/meshes)"
+    python3 tests/peers/peers.py target/release/libumbilic.so "$(tests/peers/meshes.sh target/meshes)"
 
 After the library come mesh files (OFF, OBJ, PLY) or directories; of a directory, the meshes that meshes.txt names are
 taken. All three libraries are handed the same arrays. Polygons are cut into triangles by a fan from their first corner,
