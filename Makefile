@@ -20,7 +20,7 @@ help:
 	@echo "make demo [MESH=file]     normals of a mesh: a table, a PLY and a picture in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make bench [BENCH=...]    every weight and the topology build against a plain C scatter loop"
-	@echo "make lint                 rustfmt and clippy"
+	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
 # ---- the library, and the program over it ----
@@ -58,6 +58,7 @@ lint:
 	@if $(CARGO) clippy --version >/dev/null 2>&1; then \
 	  $(CARGO) clippy --locked --all-features --all-targets -- -D warnings; \
 	  else echo "No clippy here: lints are not checked."; fi
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --lib --quiet
 
 test-rust: $(LIBRARY) $(MESHES)
 	UMBILIC_MESHES=$(CURDIR)/$(MESHES) UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(CARGO) test --locked --features cli

@@ -18,7 +18,7 @@ pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3};
 
 /// The instruction sets a call may use, narrowest first.
 ///
-/// A value above [`Level::Portable`] exists only where the CPU was seen to have it, because [`Level::best`] and
+/// A value above [`Level::PORTABLE`] exists only where the CPU was seen to have it, because [`Level::best`] and
 /// [`Level::capped`] are the only ways to get one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Level(Kind);
