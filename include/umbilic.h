@@ -565,7 +565,7 @@ typedef struct umb_face_outputs {
 #define UMB_ERROR_NON_FINITE 10
 
 /**
- * More vertices or corners than 32-bit tables can hold.
+ * More vertices, faces or corners than 32-bit tables can hold.
  */
 #define UMB_ERROR_TOO_LARGE 11
 
@@ -841,7 +841,8 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
  * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
  * sums of all fans are added. Faces whose area is exactly zero, edges without length and pairs of opposite faces drop out
- * of a sum (a face that is thin to rounding counts, with the normal that its coordinates give); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
+ * of a sum (a face that is thin to rounding counts, with the normal that its coordinates give; one thinner than 1e-135 of
+ * its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor

@@ -83,7 +83,7 @@ pub enum Error {
         /// The vertex.
         vertex: u64,
     },
-    /// More vertices, or more corners, than the topology's 32-bit tables can hold.
+    /// More vertices, faces or corners than the topology's 32-bit tables can hold.
     TooLarge {
         /// What there is too much of.
         what: &'static str,

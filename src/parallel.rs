@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::simd::Level;
 use std::cell::Cell;
 use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 
 /// How a call is carried out. The default: all cores where that pays, the widest vectors, all vertices.
 pub struct Run<'a> {
@@ -71,8 +71,7 @@ pub(crate) struct Claims<'a, 'p> {
 struct Shared {
     next: AtomicUsize,
     count: usize,
-    /// Why no more chunks are to be done.
-    stopped: OnceLock<Error>,
+    cancelled: AtomicBool,
 }
 
 impl Claims<'_, '_> {
@@ -81,25 +80,19 @@ impl Claims<'_, '_> {
         if let Some(progress) = &mut self.progress {
             let done = self.shared.next.load(Relaxed).min(self.shared.count);
             if !progress(done as f64 / self.shared.count.max(1) as f64) {
-                let _ = self.shared.stopped.set(Error::Cancelled);
+                self.shared.cancelled.store(true, Relaxed);
             }
         }
-        if self.shared.stopped.get().is_some() {
+        if self.shared.cancelled.load(Relaxed) {
             return None;
         }
         let chunk = self.shared.next.fetch_add(1, Relaxed);
         (chunk < self.shared.count).then_some(chunk)
     }
-
-    /// Ends the call with an error; the first one counts.
-    pub(crate) fn fail(&self, error: Error) {
-        // Whoever came first has said why.
-        let _ = self.shared.stopped.set(error);
-    }
 }
 
 /// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
-pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
+fn thread_count(wanted: usize, chunks: usize) -> usize {
     let most = match wanted {
         0 => chunks / CHUNKS_A_THREAD,
         wanted => wanted.min(chunks),
@@ -137,7 +130,7 @@ fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
 /// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.
 ///
 /// # Errors
-/// [`Error::Cancelled`], and whatever [`Claims::fail`] was told.
+/// [`Error::Cancelled`].
 pub(crate) fn for_each_chunk(
     run: &mut Run<'_>,
     count: usize,
@@ -146,7 +139,7 @@ pub(crate) fn for_each_chunk(
     if count == 0 {
         return Ok(());
     }
-    let shared = Shared { next: AtomicUsize::new(0), count, stopped: OnceLock::new() };
+    let shared = Shared { next: AtomicUsize::new(0), count, cancelled: AtomicBool::new(false) };
     let threads = thread_count(run.threads, count);
     let progress = run.progress.as_deref_mut();
     with_threads(
@@ -154,8 +147,8 @@ pub(crate) fn for_each_chunk(
         || work(&mut Claims { shared: &shared, progress: None }),
         || work(&mut Claims { shared: &shared, progress }),
     );
-    if let Some(error) = shared.stopped.into_inner() {
-        return Err(error);
+    if shared.cancelled.load(Relaxed) {
+        return Err(Error::Cancelled);
     }
     if let Some(progress) = &mut run.progress {
         // All is written, so a wish to cancel comes too late to matter.

@@ -402,6 +402,45 @@ fn normals_of_the_thinnest_faces_are_unit_vectors() {
 }
 
 #[test]
+fn normals_of_subnormal_area_vectors_are_unit_vectors() {
+    for bits in [1u64, 2, 3, 7, 1000, 1 << 40, 1 << 51, 1 << 53] {
+        let t = f64::from_bits(bits);
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, t, t]];
+        let mesh = Mesh::new("subnormal", positions, vec![vec![0, 1, 2]]);
+        let mut normal = [[7.0f64; 3]];
+        let mut outputs: umb_face_outputs = common::capi::zeroed();
+        outputs.normal = common::capi::output(&mut normal);
+        let (faces, points) = (common::capi::faces(&mesh), common::capi::points(&mesh.positions));
+        let error = std::ptr::null_mut();
+        assert_eq!(unsafe { umb_face_normals(&faces, &points, std::ptr::null(), &outputs, error) }, UMB_OK);
+        let half = 0.5f64.sqrt();
+        assert!(largest_difference(normal[0], [0.0, -half, half]) < 1e-15, "{t:e}: {:?}", normal[0]);
+    }
+}
+
+#[test]
+fn a_large_hub_in_many_threads_and_short_lists() {
+    // One buffer for large rings serves all threads in turn, and a list that does not name the hub needs none.
+    let mesh = fan(300_000, true, 1);
+    let handle = Handle::new(&mesh);
+    let expected = normals(&handle, &mesh.positions, UMB_WEIGHT_CONFORMAL, false, |run| run.threads = 1).normal;
+    let found = normals(&handle, &mesh.positions, UMB_WEIGHT_CONFORMAL, false, |run| run.threads = 200).normal;
+    assert!(found == expected);
+    for vertex in [5u32, 77, 0] {
+        for _ in 0..30 {
+            let mut normal = vec![[0.0f64; 3]; mesh.positions.len()];
+            let mut options: umb_normal_options = common::capi::zeroed();
+            (options.run.vertices, options.run.vertex_count) = (&vertex, 1);
+            let mut outputs: umb_normal_outputs = common::capi::zeroed();
+            outputs.normal = common::capi::output(&mut normal);
+            let (points, error) = (common::capi::points(&mesh.positions), std::ptr::null_mut());
+            assert_eq!(unsafe { umb_vertex_normals(handle.0, &points, &options, &outputs, error) }, UMB_OK);
+            assert_eq!(normal[vertex as usize], expected[vertex as usize]);
+        }
+    }
+}
+
+#[test]
 fn a_closed_fan_of_two() {
     // Two quads that share two edges at a vertex, folded like a tent: their common normals decide.
     let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, -0.5], [0.0, -1.0, -0.5]];

@@ -31,7 +31,7 @@ pub const UMB_ERROR_OFFSETS: umb_status = 8;
 pub const UMB_ERROR_INDEX_OUT_OF_RANGE: umb_status = 9;
 /// A coordinate is NaN or infinite.
 pub const UMB_ERROR_NON_FINITE: umb_status = 10;
-/// More vertices or corners than 32-bit tables can hold.
+/// More vertices, faces or corners than 32-bit tables can hold.
 pub const UMB_ERROR_TOO_LARGE: umb_status = 11;
 /// No memory for a buffer.
 pub const UMB_ERROR_OUT_OF_MEMORY: umb_status = 100;

@@ -2,7 +2,7 @@
 
 use super::guard::{Versioned, check_reserved};
 use crate::error::Error;
-use crate::parallel::Run;
+use crate::parallel::{Run, set_quiet};
 use crate::simd::Level;
 use crate::view::{Faces, Indices, Output, Points, StatusOutput};
 use libc::{c_int, c_void, size_t};
@@ -250,8 +250,14 @@ impl umb_run {
     /// The progress callback, as Rust calls it.
     pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
         let (progress, user) = (self.progress?, self.user);
-        // SAFETY: the caller gave both for this purpose.
-        Some(move |fraction| unsafe { progress(user, fraction) } == 0)
+        Some(move |fraction| {
+            // What goes wrong in there is the host's to print.
+            let quiet = set_quiet(false);
+            // SAFETY: the caller gave both for this purpose.
+            let answer = unsafe { progress(user, fraction) };
+            set_quiet(quiet);
+            answer == 0
+        })
     }
 
     /// # Safety

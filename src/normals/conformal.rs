@@ -34,7 +34,7 @@ impl Estimator for Conformal {
     const MEAN: bool = true;
 
     #[inline(always)]
-    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, scratch: &mut Scratch<V>) -> Sum<V> {
+    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, scratch: &mut Scratch<'_, V>) -> Sum<V> {
         let corners = ring.corner_count();
         // Row `j + 1` is corner `j`. Rows 0 and `corners + 1` are the corners beyond the ends: the same ring's last and
         // first if it is closed, and otherwise none, which is a zero normal and a zero tangent.

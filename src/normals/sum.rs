@@ -13,7 +13,7 @@ pub(crate) trait Estimator: Sync {
     const CENTROIDS: bool = false;
 
     /// The fan's weighted sum of normals, in the ring's units.
-    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, scratch: &mut Scratch<V>) -> Sum<V>;
+    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, scratch: &mut Scratch<'_, V>) -> Sum<V>;
 }
 
 /// A weighted sum of normals.

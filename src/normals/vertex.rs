@@ -124,7 +124,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
         vertices: &[u32],
         ring: &Ring<'_, V, F>,
         scale: V,
-        scratch: &mut Scratch<V>,
+        scratch: &mut Scratch<'_, V>,
     ) -> u32 {
         let sum = E::sum(ring, scratch);
         let (trusted, squared) = sum.trusted();
@@ -163,7 +163,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
         vertex: usize,
         fans: &VertexFans<'_, F>,
         scale: f64,
-        scratch: &mut Scratch<f64>,
+        scratch: &mut Scratch<'_, f64>,
     ) {
         let found = with_fallback::<E, F>(fans, scale, scratch);
         let (normal, sum, fallback) = found.unwrap_or(([0.0; 3], [0.0; 3], status::DEGENERATE));
@@ -186,7 +186,7 @@ type Found = ([f64; 3], [f64; 3], u8);
 fn with_fallback<E: Estimator, F: RingFaces<f64>>(
     fans: &VertexFans<'_, F>,
     scale: f64,
-    scratch: &mut Scratch<f64>,
+    scratch: &mut Scratch<'_, f64>,
 ) -> Option<Found> {
     over_fans::<E, F>(fans, scale, scratch)
         .or_else(|| over_fans::<Max, F>(fans, scale, scratch).map(as_fallback))
@@ -201,7 +201,7 @@ fn as_fallback((normal, sum, _): Found) -> Found {
 fn over_fans<E: Estimator, F: RingFaces<f64>>(
     fans: &VertexFans<'_, F>,
     scale: f64,
-    scratch: &mut Scratch<f64>,
+    scratch: &mut Scratch<'_, f64>,
 ) -> Option<Found> {
     let mut all = Sum::<f64>::zero();
     for ring in fans.rings() {

@@ -45,7 +45,7 @@ impl<W: CornerWeight> Estimator for W {
     const CENTROIDS: bool = W::NEEDS_CENTROID;
 
     #[inline(always)]
-    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, _scratch: &mut Scratch<V>) -> Sum<V> {
+    fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, _scratch: &mut Scratch<'_, V>) -> Sum<V> {
         let mut sum = Sum::zero();
         for index in 0..ring.corner_count() {
             let (term, spread) = term::<W, V, F::Face>(&ring.corner(index));

@@ -67,8 +67,8 @@ impl<'a, S: Coordinate, I: Index> Local<'a, S, I> {
         (1..self.corners.len()).fold(0.0, |extent, index| self.difference(index).abs().max_element().max(extent))
     }
 
-    /// Twice the area vector and its length; none where it vanishes or cancels out.
-    fn twice_area(&self) -> Option<(DVec3, f64)> {
+    /// Twice the area vector, its unit direction, and its length; none where it vanishes or cancels out.
+    fn twice_area(&self) -> Option<(DVec3, DVec3, f64)> {
         let (mut twice_area, mut squares) = (DVec3::ZERO, 0.0);
         let mut previous = self.corner(1);
         for index in 2..self.corners.len() {
@@ -80,8 +80,9 @@ impl<'a, S: Coordinate, I: Index> Local<'a, S, I> {
         }
         // The square of a very thin polygon's area leaves the range.
         let scale = twice_area.abs().max_element().inverse_power_of_two();
-        let length = (twice_area * scale).length() / scale;
-        (length > CANCELLED * squares.sqrt()).then_some((twice_area, length))
+        let scaled = twice_area * scale;
+        let (direction, length) = (scaled / scaled.length(), scaled.length() / scale);
+        (length > CANCELLED * squares.sqrt()).then_some((twice_area, direction, length))
     }
 
     /// The centroid, given the unit normal and twice the area.
@@ -130,19 +131,18 @@ pub(crate) fn area_vector<S: Coordinate, I: Index>(
     corners: &[I],
 ) -> Option<AreaVector> {
     let local = Local::new(points, corners)?;
-    let (twice, length) = local.twice_area()?;
-    Some(AreaVector { normal: twice / length, twice, scale: local.scale * local.factor })
+    let (twice, normal, _) = local.twice_area()?;
+    Some(AreaVector { normal, twice, scale: local.scale * local.factor })
 }
 
 /// The frame of the polygon with the given corners.
 fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], centroid: bool) -> Frame {
     let may_turn = corners.len() > 3;
-    let Some((local, (twice_area, length))) =
+    let Some((local, (_, normal, length))) =
         Local::new(points, corners).and_then(|local| local.twice_area().map(|area| (local, area)))
     else {
         return Frame { may_turn, ..Frame::default() };
     };
-    let normal = twice_area / length;
     let centroid = if centroid { local.centroid(normal, length) } else { DVec3::ZERO };
     Frame {
         normal,

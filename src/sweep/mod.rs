@@ -15,18 +15,20 @@
 
 mod frames;
 mod ring;
+mod rows;
 
 pub(crate) use frames::{CANCELLED, area_vector};
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
-use crate::error::{Error, filled, reserved};
-use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
+use crate::error::{Error, filled};
+use crate::parallel::{Claims, Run, for_each_chunk};
 use crate::simd::{MAX_LANES, Real, Task, Vector, Vector3, Width, dispatch};
 use crate::topology::{NO_FACE, Polygons, Topology};
-use crate::view::{Batch, Coordinate, MAX_LANE_CORNERS, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
+use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
 use frames::Frames;
 use glam::DVec3;
 use ring::{Polygon, PolygonFaces, Triangles};
+use rows::{LANE_EDGES, LaneRows, LargeRows, Rows};
 use std::sync::{Mutex, PoisonError};
 
 /// An estimator over one-rings, and where its results go.
@@ -43,7 +45,7 @@ pub(crate) trait Quantity: Sync {
         vertices: &[u32],
         ring: &Ring<'_, V, F>,
         scale: V,
-        scratch: &mut Scratch<V>,
+        scratch: &mut Scratch<'_, V>,
     ) -> u32;
 
     /// Computes and writes one vertex with any number of fans, whatever they are like.
@@ -52,7 +54,7 @@ pub(crate) trait Quantity: Sync {
         vertex: usize,
         fans: &VertexFans<'_, F>,
         scale: f64,
-        scratch: &mut Scratch<f64>,
+        scratch: &mut Scratch<'_, f64>,
     );
 
     /// Writes a vertex that has no face.
@@ -130,9 +132,13 @@ fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32
     Ok(())
 }
 
-/// How many corners the faces at `vertices` have, a face counted as often as it is met; `None` if more than the mesh.
+/// How many corners the faces at `vertices` have, a face counted as often as it is met; `None` if that is more work than
+/// the whole mesh.
 fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
-    let mut budget = topology.rings().entry_count();
+    let whole = topology.rings().entry_count()
+        + topology.vertex_count()
+        + topology.polygons().map_or(0, |polygons| polygons.face_count());
+    let mut budget = whole;
     for &vertex in vertices {
         let ring = topology.rings().ring_range(vertex as usize);
         let met = match topology.polygons() {
@@ -147,7 +153,7 @@ fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
         };
         budget = budget.checked_sub(met + 1)?;
     }
-    Some(topology.rings().entry_count() - budget)
+    Some(whole - budget)
 }
 
 fn sweep_points<Q: Quantity, S: Coordinate>(
@@ -164,15 +170,18 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
     };
     let (vertices, level) = (run.vertices, run.level);
     let chunks = vertices.map_or(topology.rings().windows(), |vertices| vertices.len().div_ceil(WINDOW));
-    // Every thread's rows are there before the first result is written.
-    let mut rows = Vec::new();
-    for _ in 0..thread_count(run.threads, chunks) {
-        rows.try_reserve(1)?;
-        // A vertex that lanes are in doubt about comes here too.
-        rows.push(Rows::<f64>::new(topology.largest_alone().max(MAX_LANE_CORNERS + 1))?);
-    }
-    let rows = Mutex::new(rows);
-    let sweep = Sweep { topology, points, frames, vertices, double, quantity, rows: &rows };
+    // The one buffer whose size depends on the mesh is there before the first result is written. Vertices that need it
+    // are few and take turns.
+    let large = match vertices {
+        None => topology.largest_alone(),
+        Some(vertices) => {
+            let alone = |vertex: &u32| matches!(topology.rings().class(*vertex as usize), RingClass::Alone);
+            let edges = |vertex: &u32| topology.edges_alone(*vertex as usize);
+            vertices.iter().filter(|vertex| alone(vertex)).map(edges).max().unwrap_or(0)
+        }
+    };
+    let large = Mutex::new(LargeRows::new(large)?);
+    let sweep = Sweep { topology, points, frames, vertices, double, quantity, large: &large };
     for_each_chunk(run, chunks, |claims| dispatch(level, Worker { sweep: &sweep, claims }))
 }
 
@@ -183,8 +192,8 @@ struct Sweep<'a, Q, S> {
     vertices: Option<&'a [u32]>,
     double: bool,
     quantity: &'a Q,
-    /// One for each thread, for the vertices that are computed alone.
-    rows: &'a Mutex<Vec<Rows<f64>>>,
+    /// For vertices with more edges than [`LaneRows`] hold.
+    large: &'a Mutex<LargeRows>,
 }
 
 /// One thread's part of a sweep.
@@ -193,40 +202,16 @@ struct Worker<'a, 'c, 'p, 's, Q, S> {
     claims: &'c mut Claims<'s, 'p>,
 }
 
-/// A ring's rows, reused from block to block.
-struct Rows<V> {
-    edges: Vec<Vector3<V>>,
-    squared: Vec<V>,
-    faces: Vec<Polygon<V>>,
-    scratch: Scratch<V>,
-}
-
-impl<V: Vector> Rows<V> {
-    /// Room for so many edges.
-    fn new(edges: usize) -> Result<Self, Error> {
-        Ok(Rows {
-            edges: filled(edges, Vector3::zero())?,
-            squared: filled(edges, V::zero())?,
-            faces: reserved(edges)?,
-            scratch: Scratch::new(edges)?,
-        })
-    }
-}
-
 impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     #[inline(always)]
     fn run<W: Width>(self) {
         let sweep = self.sweep;
         let single = !sweep.double && sweep.frames.is_none();
-        // A few kilobytes each; the rest was reserved before the threads were started.
-        let alone_rows = sweep.rows.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let (Some(mut alone_rows), Ok(mut single_rows), Ok(mut double_rows)) =
-            (alone_rows, Rows::<W::Single>::new(MAX_LANE_CORNERS + 1), Rows::<W::Double>::new(MAX_LANE_CORNERS + 1))
-        else {
-            return self.claims.fail(Error::OutOfMemory);
-        };
+        let mut single_rows = LaneRows::<W::Single>::new();
+        let mut double_rows = LaneRows::<W::Double>::new();
+        let mut alone_rows = LaneRows::<f64>::new();
         let mut batch = Batch::new();
-        let mut doubtful: Vec<u32> = Vec::with_capacity(WINDOW);
+        let mut doubtful = [0u32; WINDOW];
         while let Some(chunk) = self.claims.next() {
             match sweep.vertices {
                 None => sweep.topology.rings().fill_window(chunk, &mut batch),
@@ -250,14 +235,17 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     RingClass::Lanes { corners, closed } => (corners, closed),
                 };
                 if single {
-                    doubtful.clear();
+                    let mut count = 0;
                     for block in vertices.chunks(W::Single::LANES) {
                         let bits = sweep.block(block, corners, closed, &mut single_rows);
                         if bits != 0 {
-                            push_lanes(bits, block, &mut doubtful);
+                            for (_, &vertex) in block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0) {
+                                doubtful[count] = vertex;
+                                count += 1;
+                            }
                         }
                     }
-                    vertices = &doubtful;
+                    vertices = &doubtful[..count];
                 }
                 for block in vertices.chunks(W::Double::LANES) {
                     let bits = sweep.block(block, corners, closed, &mut double_rows);
@@ -274,15 +262,10 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     }
 }
 
-/// Appends the vertices whose lane's bit is set.
-fn push_lanes(bits: u32, block: &[u32], vertices: &mut Vec<u32>) {
-    vertices.extend(block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0).map(|(_, vertex)| *vertex));
-}
-
 impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
     #[inline(always)]
-    fn block<V: Vector>(&self, block: &[u32], corners: usize, closed: bool, rows: &mut Rows<V>) -> u32 {
-        let Rows { edges, squared, faces, scratch } = rows;
+    fn block<V: Vector>(&self, block: &[u32], corners: usize, closed: bool, rows: &mut LaneRows<V>) -> u32 {
+        let Rows { edges, squared, faces, mut scratch } = rows.rows();
         let edges = &mut edges[..corners + 1];
         let squared = &mut squared[..corners + 1];
         self.topology.rings().load_edges(self.points, block, corners, closed, edges);
@@ -294,34 +277,28 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         scale_edges(edges, squared, scale);
         // Only double precision computes polygons, so single precision never compiles that path.
         if let (false, Some(frames)) = (V::Scalar::SINGLE, &self.frames) {
-            self.load_faces(frames, block, corners, scale, faces);
-            self.quantity.block(block, &Ring { edges, squared, closed, faces: PolygonFaces(faces) }, scale, scratch)
+            let faces = &mut faces[..corners];
+            self.load_faces(frames, block, scale, faces);
+            let ring = Ring { edges, squared, closed, faces: PolygonFaces(faces) };
+            self.quantity.block(block, &ring, scale, &mut scratch)
         } else {
-            self.quantity.block(block, &Ring { edges, squared, closed, faces: Triangles }, scale, scratch)
+            self.quantity.block(block, &Ring { edges, squared, closed, faces: Triangles }, scale, &mut scratch)
         }
     }
 
     /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.
     #[inline(always)]
-    fn load_faces<V: Vector>(
-        &self,
-        frames: &Frames<'_, S>,
-        block: &[u32],
-        corners: usize,
-        scale: V,
-        faces: &mut Vec<Polygon<V>>,
-    ) {
+    fn load_faces<V: Vector>(&self, frames: &Frames<'_, S>, block: &[u32], scale: V, faces: &mut [Polygon<V>]) {
         let scales = scale.to_lanes();
-        faces.clear();
-        for corner in 0..corners {
+        for (corner, face) in faces.iter_mut().enumerate() {
             let mut normal = [[V::Scalar::ZERO; MAX_LANES]; 3];
             let mut centroid = [[V::Scalar::ZERO; MAX_LANES]; 3];
             let mut area = [V::Scalar::ZERO; MAX_LANES];
             let mut may_turn = [V::Scalar::ZERO; MAX_LANES];
             for lane in 0..V::LANES {
                 let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
-                let face = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
-                let loaded = self.load_face(frames, face, vertex, 1.0, scales[lane].into());
+                let index = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
+                let loaded = self.load_face(frames, index, vertex, 1.0, scales[lane].into());
                 area[lane] = V::Scalar::from_f64(loaded.area);
                 may_turn[lane] = if loaded.may_turn { V::Scalar::ONE } else { V::Scalar::ZERO };
                 for axis in 0..3 {
@@ -329,12 +306,12 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
                     centroid[axis][lane] = V::Scalar::from_f64(loaded.centroid[axis]);
                 }
             }
-            faces.push(Polygon {
+            *face = Polygon {
                 normal: Vector3::from_lanes(&normal),
                 area: V::from_lanes(&area),
                 centroid: Vector3::from_lanes(&centroid),
                 may_turn: V::from_lanes(&may_turn),
-            });
+            };
         }
     }
 
@@ -356,8 +333,16 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
 
     /// The vertex-by-vertex path.
     #[inline(never)]
-    fn alone(&self, vertex: usize, rows: &mut Rows<f64>) {
-        let Rows { edges, squared, faces, scratch } = rows;
+    fn alone(&self, vertex: usize, rows: &mut LaneRows<f64>) {
+        if self.topology.edges_alone(vertex) <= LANE_EDGES {
+            self.alone_in(vertex, rows.rows());
+        } else {
+            self.alone_in(vertex, self.large.lock().unwrap_or_else(PoisonError::into_inner).rows());
+        }
+    }
+
+    fn alone_in(&self, vertex: usize, rows: Rows<'_, f64>) {
+        let Rows { edges, squared, faces, mut scratch } = rows;
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
         let mut factor = 1.0;
@@ -369,8 +354,8 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         let (edges, squared) = (&mut edges[..count], &mut squared[..count]);
         let scale = extent.unit_scale();
         scale_edges(edges, squared, scale);
-        faces.clear();
         if let Some(frames) = &self.frames {
+            let mut corners = 0;
             let ring_start = self.topology.rings().ring_range(vertex).start;
             for fan in self.topology.fans(vertex) {
                 for corner in 0..fan.corner_count {
@@ -378,14 +363,15 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
                     let face = self.load_face(frames, face, vertex, factor, scale);
                     let may_turn = if face.may_turn { 1.0 } else { 0.0 };
                     let (normal, centroid) = (lane(face.normal), lane(face.centroid));
-                    faces.push(Polygon { normal, area: face.area, centroid, may_turn });
+                    faces[corners] = Polygon { normal, area: face.area, centroid, may_turn };
+                    corners += 1;
                 }
             }
-            let fans = VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(faces));
-            self.quantity.alone(vertex, &fans, scale * factor, scratch);
+            let fans = VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(&faces[..corners]));
+            self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
         } else {
             let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles);
-            self.quantity.alone(vertex, &fans, scale * factor, scratch);
+            self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
         }
     }
 

@@ -4,7 +4,6 @@
 //! to between 1 and 2. So nothing is lost far from the origin, and no square of a length overflows or vanishes,
 //! whatever the size of the mesh. A mesh of triangles and one of polygons differ only in [`RingFaces`].
 
-use crate::error::{Error, filled};
 use crate::simd::{Real, Vector, Vector3, atan2_and_reciprocal};
 use crate::topology::Topology;
 
@@ -281,18 +280,9 @@ impl<V: Vector> Face<V> for Polygon<V> {
 }
 
 /// Rows of numbers that an estimator may keep while it goes around a ring; long enough for every corner and two more.
-pub(crate) struct Scratch<V> {
-    /// Rows of vectors.
-    pub vectors: Vec<Vector3<V>>,
-    /// Rows of numbers.
-    pub numbers: [Vec<V>; 3],
-}
-
-impl<V: Vector> Scratch<V> {
-    /// Room for `corners` corners.
-    pub fn new(corners: usize) -> Result<Self, Error> {
-        let length = corners + 2;
-        let row = || filled(length, V::zero());
-        Ok(Scratch { vectors: filled(length, Vector3::zero())?, numbers: [row()?, row()?, row()?] })
-    }
+pub(crate) struct Scratch<'a, V> {
+    /// Vectors.
+    pub vectors: &'a mut [Vector3<V>],
+    /// Numbers.
+    pub numbers: [&'a mut [V]; 3],
 }

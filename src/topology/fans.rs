@@ -202,7 +202,7 @@ impl<'a> FanBuilder<'a> {
             head.iter().chain(tail)
         };
         let starts_alike = |a: &u32, b: &u32| polygons.face(*a as usize).len().cmp(&polygons.face(*b as usize).len());
-        self.suspects.sort_by(|a, b| starts_alike(a, b).then_with(|| least(*a).cmp(least(*b))));
+        self.suspects.sort_unstable_by(|a, b| starts_alike(a, b).then_with(|| least(*a).cmp(least(*b))));
         let repeats = self.suspects.windows(2).filter(|pair| least(pair[0]).eq(least(pair[1])));
         self.defects.duplicate_faces += repeats.count();
     }

@@ -180,7 +180,12 @@ impl Topology {
         &self.fans[first..first + count]
     }
 
-    /// The most edges, a closed fan's first counted twice, that a vertex of [`RingClass::Alone`] has.
+    /// How many edges at most a vertex has, the first of a closed fan counted twice.
+    pub(crate) fn edges_alone(&self, vertex: usize) -> usize {
+        self.ring(vertex).len() + self.fan_count(vertex)
+    }
+
+    /// The most [`Topology::edges_alone`] of the vertices of [`RingClass::Alone`].
     pub(crate) fn largest_alone(&self) -> usize {
         self.largest_alone
     }
