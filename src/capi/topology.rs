@@ -116,7 +116,7 @@ pub struct umb_fan {
 /// its shape.
 ///
 /// Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices. Held are about 16 bytes
-/// a triangle, or 61 a quad; 24 more a triangle, or 48 a quad, while building.
+/// a triangle, or 60 a quad; 24 more a triangle, or 48 a quad, while building.
 ///
 /// @param faces the faces; read only during the call
 /// @param vertex_count the number of vertices, at most 2^32 - 1, as of faces; there may be at most 2^31 - 1 corners
