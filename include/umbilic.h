@@ -398,7 +398,8 @@ typedef struct umb_normal_options {
 } umb_normal_options;
 
 /**
- * An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
+ * An array to write, in the caller's memory: of vectors, `#V x 3`, or of single scalars, `#V`, as the field that holds it
+ * says. Null `data`: not wanted.
  *
  * It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
  * be interleaved with the positions. Its elements must not overlap those of any other array of the call.

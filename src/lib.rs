@@ -33,4 +33,4 @@ pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_norma
 pub use parallel::Run;
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};
-pub use view::{Faces, IndexArray, Indices, Output, Points, StatusOutput};
+pub use view::{Faces, IndexArray, Indices, Output, Points, ScalarOutput, StatusOutput};

@@ -77,7 +77,8 @@ pub struct umb_faces {
     pub arity: u32,
 }
 
-/// An array of three scalars an element to write, in the caller's memory. Null `data`: not wanted.
+/// An array to write, in the caller's memory: of vectors, `#V x 3`, or of single scalars, `#V`, as the field that holds it
+/// says. Null `data`: not wanted.
 ///
 /// It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
 /// be interleaved with the positions. Its elements must not overlap those of any other array of the call.
@@ -216,7 +217,7 @@ impl umb_faces {
 impl umb_output {
     /// # Safety
     /// The fields describe memory of `count` elements that is ours alone for `'a`.
-    pub(super) unsafe fn view<'a>(&self, count: usize) -> Result<Option<Output<'a>>, Error> {
+    pub(super) unsafe fn view<'a, const N: usize>(&self, count: usize) -> Result<Option<Output<'a, N>>, Error> {
         check_reserved("umb_output", offset_of!(umb_output, reserved), self.reserved)?;
         if !matches!(self.scalar, UMB_SCALAR_F32 | UMB_SCALAR_F64) {
             return Err(Error::UnknownConstant { what: "output.scalar", value: self.scalar as u64 });

@@ -13,7 +13,7 @@ mod rings;
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
 pub(crate) use memory::{Zero, zeroed};
-pub use output::{Output, StatusOutput};
+pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};

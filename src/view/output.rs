@@ -6,12 +6,12 @@ use crate::simd::Real;
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 
-/// A borrowed array of `#V × 3` scalars to write, `f32` or `f64`, at any byte stride.
+/// A borrowed array to write, of `N` scalars an element, `f32` or `f64`, at any byte stride.
 ///
 /// Stores are relaxed atomics (plain moves on every CPU), so that two threads that write the same value to the same
 /// element, as a list of vertices with repetitions makes them, are no data race.
 #[derive(Debug)]
-pub struct Output<'a> {
+pub struct Output<'a, const N: usize = 3> {
     base: *mut u8,
     count: usize,
     stride: usize,
@@ -19,13 +19,16 @@ pub struct Output<'a> {
     memory: PhantomData<&'a mut [u8]>,
 }
 
-// SAFETY: all writes are atomic stores into memory that the view borrows exclusively.
-unsafe impl Send for Output<'_> {}
-// SAFETY: as above.
-unsafe impl Sync for Output<'_> {}
+/// A borrowed array to write, of one scalar an element.
+pub type ScalarOutput<'a> = Output<'a, 1>;
 
-impl<'a> Output<'a> {
-    /// `count` elements of three `f32` from `data` on, `stride` bytes apart (0: packed).
+// SAFETY: all writes are atomic stores into memory that the view borrows exclusively.
+unsafe impl<const N: usize> Send for Output<'_, N> {}
+// SAFETY: as above.
+unsafe impl<const N: usize> Sync for Output<'_, N> {}
+
+impl<'a, const N: usize> Output<'a, N> {
+    /// `count` elements of `N` `f32` from `data` on, `stride` bytes apart (0: packed).
     ///
     /// # Errors
     /// [`Error::NullPointer`], [`Error::Stride`], [`Error::Misaligned`] or [`Error::Size`].
@@ -34,7 +37,7 @@ impl<'a> Output<'a> {
     /// For the life of the view, the elements must lie in memory that may be written, and nobody else may read or
     /// write them. Bytes between the elements may belong to anything.
     pub unsafe fn from_raw_f32(data: *mut f32, count: usize, stride: usize) -> Result<Self, Error> {
-        let stride = checked_stride::<f32>("output", data as usize, count, stride, 3)?;
+        let stride = checked_stride::<f32>("output", data as usize, count, stride, N)?;
         Self::new(data.cast(), count, stride, false)
     }
 
@@ -46,7 +49,7 @@ impl<'a> Output<'a> {
     /// # Safety
     /// As [`Output::from_raw_f32`].
     pub unsafe fn from_raw_f64(data: *mut f64, count: usize, stride: usize) -> Result<Self, Error> {
-        let stride = checked_stride::<f64>("output", data as usize, count, stride, 3)?;
+        let stride = checked_stride::<f64>("output", data as usize, count, stride, N)?;
         Self::new(data.cast(), count, stride, true)
     }
 
@@ -74,7 +77,7 @@ impl<'a> Output<'a> {
 
     /// Writes an element; values beyond the scalar's range become its largest.
     #[inline(always)]
-    pub(crate) fn write(&self, index: usize, value: [f64; 3]) {
+    pub(crate) fn write(&self, index: usize, value: [f64; N]) {
         if self.double {
             self.write_double(index, value.map(|x| x.clamp(-f64::MAX, f64::MAX)));
         } else {
@@ -84,7 +87,7 @@ impl<'a> Output<'a> {
 
     /// Writes an element in whatever precision a kernel works in.
     #[inline(always)]
-    pub(crate) fn write_lane<S: Real>(&self, index: usize, value: [S; 3]) {
+    pub(crate) fn write_lane<S: Real>(&self, index: usize, value: [S; N]) {
         if S::SINGLE && !self.double {
             self.write_single(index, value.map(|x| x.into() as f32));
         } else {
@@ -100,37 +103,41 @@ impl<'a> Output<'a> {
     }
 
     #[inline(always)]
-    fn write_single(&self, index: usize, value: [f32; 3]) {
+    fn write_single(&self, index: usize, value: [f32; N]) {
         let element = self.element(index).cast::<u32>();
         for (axis, x) in value.into_iter().enumerate() {
-            // SAFETY: three aligned f32 start at the element, in memory that is ours to write.
+            // SAFETY: `N` aligned f32 start at the element, in memory that is ours to write.
             unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
         }
     }
 
     #[inline(always)]
-    fn write_double(&self, index: usize, value: [f64; 3]) {
+    fn write_double(&self, index: usize, value: [f64; N]) {
         let element = self.element(index).cast::<u64>();
         for (axis, x) in value.into_iter().enumerate() {
-            // SAFETY: three aligned f64 start at the element, in memory that is ours to write.
+            // SAFETY: `N` aligned f64 start at the element, in memory that is ours to write.
             unsafe { store_double(element.add(axis), x.to_bits()) };
         }
     }
 }
 
-impl<'a> From<&'a mut [[f32; 3]]> for Output<'a> {
-    fn from(slice: &'a mut [[f32; 3]]) -> Self {
-        let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
-        Output { base, count, stride: size_of::<[f32; 3]>(), double: false, memory: PhantomData }
-    }
+macro_rules! from_slices {
+    ($($scalar:ty, $double:literal;)*) => {$(
+        impl<'a, const N: usize> From<&'a mut [[$scalar; N]]> for Output<'a, N> {
+            fn from(slice: &'a mut [[$scalar; N]]) -> Self {
+                let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
+                Output { base, count, stride: size_of::<[$scalar; N]>(), double: $double, memory: PhantomData }
+            }
+        }
+        impl<'a> From<&'a mut [$scalar]> for Output<'a, 1> {
+            fn from(slice: &'a mut [$scalar]) -> Self {
+                let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
+                Output { base, count, stride: size_of::<$scalar>(), double: $double, memory: PhantomData }
+            }
+        }
+    )*};
 }
-
-impl<'a> From<&'a mut [[f64; 3]]> for Output<'a> {
-    fn from(slice: &'a mut [[f64; 3]]) -> Self {
-        let (base, count) = (slice.as_mut_ptr().cast(), slice.len());
-        Output { base, count, stride: size_of::<[f64; 3]>(), double: true, memory: PhantomData }
-    }
-}
+from_slices! { f32, false; f64, true; }
 
 /// Stores the bits of an `f64`.
 ///
