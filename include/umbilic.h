@@ -561,7 +561,7 @@ typedef struct umb_face_outputs {
 #define UMB_ERROR_INDEX_OUT_OF_RANGE 9
 
 /**
- * A coordinate is NaN or infinite.
+ * A coordinate, or a normal given, is NaN or infinite.
  */
 #define UMB_ERROR_NON_FINITE 10
 
@@ -569,6 +569,16 @@ typedef struct umb_face_outputs {
  * More vertices, faces or corners than 32-bit tables can hold.
  */
 #define UMB_ERROR_TOO_LARGE 11
+
+/**
+ * An output is asked for, or an option set, that the method does not have.
+ */
+#define UMB_ERROR_NOT_APPLICABLE 12
+
+/**
+ * An option is outside its range.
+ */
+#define UMB_ERROR_OPTION_OUT_OF_RANGE 13
 
 /**
  * No memory for a buffer.

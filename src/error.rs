@@ -83,6 +83,21 @@ pub enum Error {
         /// The vertex.
         vertex: u64,
     },
+    /// A given normal that is NaN or infinite.
+    NonFiniteNormal {
+        /// The vertex.
+        vertex: u64,
+    },
+    /// An output or an option that the method asked for does not have.
+    NotApplicable {
+        /// The output or option.
+        what: &'static str,
+    },
+    /// An option outside its range.
+    OptionOutOfRange {
+        /// The option.
+        what: &'static str,
+    },
     /// More vertices, faces or corners than the topology's 32-bit tables can hold.
     TooLarge {
         /// What there is too much of.
@@ -107,7 +122,7 @@ impl Error {
             Error::Offsets { face } => Some(face),
             Error::IndexOutOfRange { position, .. } => Some(position),
             Error::NoSuchElement { index, .. } => Some(index),
-            Error::NonFinitePosition { vertex } => Some(vertex),
+            Error::NonFinitePosition { vertex } | Error::NonFiniteNormal { vertex } => Some(vertex),
             _ => None,
         }
     }
@@ -145,6 +160,9 @@ impl fmt::Display for Error {
                 write!(out, "there is no {what} {index}: there are {count}, counted from 0")
             }
             Error::NonFinitePosition { vertex } => write!(out, "the position of vertex {vertex} is not finite"),
+            Error::NonFiniteNormal { vertex } => write!(out, "the normal given for vertex {vertex} is not finite"),
+            Error::NotApplicable { what } => write!(out, "{what} is nothing that the method has"),
+            Error::OptionOutOfRange { what } => write!(out, "{what} is outside its range"),
             Error::TooLarge { what, found, limit } => write!(out, "{found} {what}: the limit is {limit}"),
             Error::OutOfMemory => write!(out, "out of memory"),
             Error::Cancelled => write!(out, "cancelled by the progress callback"),

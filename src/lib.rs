@@ -20,6 +20,7 @@
 #![deny(missing_docs)]
 
 pub mod capi;
+mod curvature;
 mod error;
 mod normals;
 mod parallel;
@@ -28,6 +29,7 @@ mod sweep;
 mod topology;
 mod view;
 
+pub use curvature::{CurvatureOptions, CurvatureOutputs, Method, Section, VertexNormals, curvatures};
 pub use error::Error;
 pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 pub use parallel::Run;

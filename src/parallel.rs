@@ -92,7 +92,7 @@ impl Claims<'_, '_> {
 }
 
 /// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
-fn thread_count(wanted: usize, chunks: usize) -> usize {
+pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
     let most = match wanted {
         0 => chunks / CHUNKS_A_THREAD,
         wanted => wanted.min(chunks),

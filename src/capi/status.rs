@@ -29,10 +29,14 @@ pub const UMB_ERROR_SIZE: umb_status = 7;
 pub const UMB_ERROR_OFFSETS: umb_status = 8;
 /// An index is negative, or not below the number of what it counts.
 pub const UMB_ERROR_INDEX_OUT_OF_RANGE: umb_status = 9;
-/// A coordinate is NaN or infinite.
+/// A coordinate, or a normal given, is NaN or infinite.
 pub const UMB_ERROR_NON_FINITE: umb_status = 10;
 /// More vertices, faces or corners than 32-bit tables can hold.
 pub const UMB_ERROR_TOO_LARGE: umb_status = 11;
+/// An output is asked for, or an option set, that the method does not have.
+pub const UMB_ERROR_NOT_APPLICABLE: umb_status = 12;
+/// An option is outside its range.
+pub const UMB_ERROR_OPTION_OUT_OF_RANGE: umb_status = 13;
 /// No memory for a buffer.
 pub const UMB_ERROR_OUT_OF_MEMORY: umb_status = 100;
 /// The progress callback asked to stop.
@@ -84,7 +88,9 @@ impl Failure {
                 Error::Size { .. } => UMB_ERROR_SIZE,
                 Error::Offsets { .. } => UMB_ERROR_OFFSETS,
                 Error::IndexOutOfRange { .. } | Error::NoSuchElement { .. } => UMB_ERROR_INDEX_OUT_OF_RANGE,
-                Error::NonFinitePosition { .. } => UMB_ERROR_NON_FINITE,
+                Error::NonFinitePosition { .. } | Error::NonFiniteNormal { .. } => UMB_ERROR_NON_FINITE,
+                Error::NotApplicable { .. } => UMB_ERROR_NOT_APPLICABLE,
+                Error::OptionOutOfRange { .. } => UMB_ERROR_OPTION_OUT_OF_RANGE,
                 Error::TooLarge { .. } => UMB_ERROR_TOO_LARGE,
                 Error::OutOfMemory => UMB_ERROR_OUT_OF_MEMORY,
                 Error::Cancelled => UMB_ERROR_CANCELLED,

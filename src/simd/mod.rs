@@ -130,6 +130,12 @@ pub(crate) trait Width {
     type Single: Vector<Scalar = f32>;
     /// Lanes of `f64`.
     type Double: Vector<Scalar = f64>;
+
+    /// Runs `task`, which must be within a task of the same width, in a function of its own that has the width's
+    /// features. What many callers share is so compiled once.
+    fn call<T: Task>(task: T)
+    where
+        Self: Sized;
 }
 
 /// Work that is compiled once per [`Width`].
@@ -142,6 +148,11 @@ struct Portable;
 impl Width for Portable {
     type Single = portable::Lanes<f32, 4>;
     type Double = portable::Lanes<f64, 4>;
+
+    #[inline(never)]
+    fn call<T: Task>(task: T) {
+        task.run::<Portable>();
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -152,22 +163,41 @@ mod widths {
     impl Width for Sse2 {
         type Single = x86::F32x4;
         type Double = x86::F64x2;
+
+        #[inline(never)]
+        fn call<T: Task>(task: T) {
+            task.run::<Sse2>();
+        }
     }
     pub struct Avx2;
     impl Width for Avx2 {
         type Single = x86::F32x8;
         type Double = x86::F64x4;
+
+        #[inline(always)]
+        fn call<T: Task>(task: T) {
+            // SAFETY: this width is only ever met within `run_avx2`.
+            unsafe { run_avx2(task) };
+        }
     }
     pub struct Avx512;
     impl Width for Avx512 {
         type Single = x86::F32x16;
         type Double = x86::F64x8;
+
+        #[inline(always)]
+        fn call<T: Task>(task: T) {
+            // SAFETY: this width is only ever met within `run_avx512`.
+            unsafe { run_avx512(task) };
+        }
     }
 
+    #[inline(never)]
     #[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
     pub fn run_avx2<T: Task>(task: T) {
         task.run::<Avx2>();
     }
+    #[inline(never)]
     #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl,avx2,bmi1,bmi2,popcnt,lzcnt")]
     pub fn run_avx512<T: Task>(task: T) {
         task.run::<Avx512>();

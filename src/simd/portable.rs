@@ -17,6 +17,10 @@ impl<const N: usize> Mask for Answers<N> {
         Answers(std::array::from_fn(|lane| self.0[lane] & other.0[lane]))
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Answers(std::array::from_fn(|lane| self.0[lane] | other.0[lane]))
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         self.0.iter().enumerate().fold(0, |bits, (lane, yes)| bits | (*yes as u32) << lane)
     }

@@ -80,6 +80,8 @@ real!(f64, u64, 0x7ff0_0000_0000_0000, 2046 << 52, f64::from_bits(2045 << 52), f
 pub(crate) trait Mask: Copy {
     /// Lanes where both hold.
     fn and(self, other: Self) -> Self;
+    /// Lanes where one of them holds.
+    fn or(self, other: Self) -> Self;
     /// Bit `l` is lane `l`.
     fn bits(self) -> u32;
 }
@@ -222,6 +224,10 @@ impl Mask for bool {
         self & other
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self | other
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         self as u32
     }
@@ -269,6 +275,12 @@ impl<V: Vector> Vector3<V> {
     #[inline(always)]
     pub fn from_lanes(lanes: &[[V::Scalar; MAX_LANES]; 3]) -> Self {
         Vector3 { x: V::from_lanes(&lanes[0]), y: V::from_lanes(&lanes[1]), z: V::from_lanes(&lanes[2]) }
+    }
+}
+
+impl From<glam::DVec3> for Vector3<f64> {
+    fn from(vector: glam::DVec3) -> Self {
+        Vector3 { x: vector.x, y: vector.y, z: vector.z }
     }
 }
 

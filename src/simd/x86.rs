@@ -130,7 +130,7 @@ macro_rules! row {
 }
 
 macro_rules! mask {
-    ($name:ident, $register:ty, $and:expr, $bits:expr) => {
+    ($name:ident, $register:ty, $and:expr, $or:expr, $bits:expr) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $name($register);
@@ -140,6 +140,12 @@ macro_rules! mask {
                 // SAFETY: see `row!`.
                 #[allow(unused_unsafe)]
                 $name(unsafe { $and(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn or(self, other: Self) -> Self {
+                // SAFETY: see `row!`.
+                #[allow(unused_unsafe)]
+                $name(unsafe { $or(self.0, other.0) })
             }
             #[inline(always)]
             fn bits(self) -> u32 {
@@ -153,12 +159,12 @@ macro_rules! mask {
     };
 }
 
-mask!(M32x4, __m128, _mm_and_ps, _mm_movemask_ps);
-mask!(M64x2, __m128d, _mm_and_pd, _mm_movemask_pd);
-mask!(M32x8, __m256, _mm256_and_ps, _mm256_movemask_ps);
-mask!(M64x4, __m256d, _mm256_and_pd, _mm256_movemask_pd);
-mask!(M32x16, __mmask16, |a: u16, b: u16| a & b, |a: u16| a);
-mask!(M64x8, __mmask8, |a: u8, b: u8| a & b, |a: u8| a);
+mask!(M32x4, __m128, _mm_and_ps, _mm_or_ps, _mm_movemask_ps);
+mask!(M64x2, __m128d, _mm_and_pd, _mm_or_pd, _mm_movemask_pd);
+mask!(M32x8, __m256, _mm256_and_ps, _mm256_or_ps, _mm256_movemask_ps);
+mask!(M64x4, __m256d, _mm256_and_pd, _mm256_or_pd, _mm256_movemask_pd);
+mask!(M32x16, __mmask16, |a: u16, b: u16| a & b, |a: u16, b: u16| a | b, |a: u16| a);
+mask!(M64x8, __mmask8, |a: u8, b: u8| a & b, |a: u8, b: u8| a | b, |a: u8| a);
 
 // The largest power of two whose reciprocal is normal, the exponent field, and its mirror: see
 // `Real::inverse_power_of_two`, whose bits these reproduce.

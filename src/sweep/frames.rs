@@ -1,10 +1,11 @@
-//! Normal, area and centroid of polygons, in `f64`.
+//! Normal, area, centroid and angles of polygons, in `f64`.
 //!
 //! The area vector of the polygon `p₀ … pₙ₋₁` is `½ Σ (pₖ − p₀) × (pₖ₊₁ − p₀)`: relative to the polygon, so that
 //! nothing is lost far from the origin, and right for concave and for collinear corners. The centroid is that of the
 //! area, each triangle `(mean, pₖ, pₖ₊₁)` counted by its signed area along the normal, so it does not move when an
 //! edge is split. A polygon whose area vector cancels out has no normal. Cost: linear in the number of corners.
 
+use super::ring::interior_angle;
 use crate::error::{Error, filled};
 use crate::parallel;
 use crate::simd::Real;
@@ -21,6 +22,13 @@ pub(crate) struct Frame {
     pub size: f64,
     /// From the first corner to the centroid, if it was asked for.
     pub centroid: DVec3,
+    /// One by the number of corners.
+    pub share: f64,
+    /// How much each of its angles falls short of those of a flat polygon, if it was asked for: an equal part of the
+    /// whole.
+    pub bend: f64,
+    /// The mean of the normals of its corners, if they were given.
+    pub mean_normal: DVec3,
     /// Whether there are more than three corners, so that one of them may be reflex.
     pub may_turn: bool,
 }
@@ -85,6 +93,20 @@ impl<'a, S: Coordinate, I: Index> Local<'a, S, I> {
         (length > CANCELLED * squares.sqrt()).then_some((twice_area, direction, length))
     }
 
+    /// How much each angle falls short of those of a flat polygon, `((n − 2)π − Σθ) / n`, given the unit normal.
+    fn bend(&self, normal: DVec3) -> f64 {
+        let count = self.corners.len();
+        // The very differences that a ring has, so that both see the same corners as reflex.
+        let point = |index: usize| self.points.get(self.corners[index % count].widen() as usize) * self.factor;
+        let angle = |index: usize| {
+            let next = (point(index + 1) - point(index)) * self.scale;
+            let previous = (point(index + count - 1) - point(index)) * self.scale;
+            interior_angle(next.into(), previous.into(), normal.into(), 1.0)
+        };
+        let sum: f64 = (0..count).map(angle).sum();
+        ((count - 2) as f64 * std::f64::consts::PI - sum) / count as f64
+    }
+
     /// The centroid, given the unit normal and twice the area.
     fn centroid(&self, normal: DVec3, twice_area: f64) -> DVec3 {
         let count = self.corners.len();
@@ -135,16 +157,39 @@ pub(crate) fn area_vector<S: Coordinate, I: Index>(
     Some(AreaVector { normal, twice, scale: local.scale * local.factor })
 }
 
+/// What of a [`Frame`] an estimator asks for besides normal and area.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Asked<'a> {
+    /// Centroids.
+    pub centroids: bool,
+    /// [`Frame::bend`]
+    pub bends: bool,
+    /// The normals of all vertices, for [`Frame::mean_normal`].
+    pub normals: Option<&'a [[f64; 3]]>,
+}
+
 /// The frame of the polygon with the given corners.
-fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], centroid: bool) -> Frame {
+fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], asked: Asked<'_>) -> Frame {
     let may_turn = corners.len() > 3;
-    let Some((local, (_, normal, length))) =
-        Local::new(points, corners).and_then(|local| local.twice_area().map(|area| (local, area)))
-    else {
-        return Frame { may_turn, ..Frame::default() };
+    let share = 1.0 / corners.len().max(1) as f64;
+    let normal_at = |normals: &[[f64; 3]], &vertex: &u32| DVec3::from_array(normals[vertex as usize]);
+    let mean_normal = asked.normals.map_or(DVec3::ZERO, |normals| {
+        corners.iter().map(|vertex| normal_at(normals, vertex)).sum::<DVec3>() * share
+    });
+    let local = Local::new(points, corners);
+    let area = local.as_ref().and_then(Local::twice_area);
+    let bend = match &local {
+        Some(local) if asked.bends && may_turn => local.bend(area.map_or(DVec3::ZERO, |(_, normal, _)| normal)),
+        _ => 0.0,
     };
-    let centroid = if centroid { local.centroid(normal, length) } else { DVec3::ZERO };
+    let (Some(local), Some((_, normal, length))) = (local, area) else {
+        return Frame { may_turn, share, bend, mean_normal, ..Frame::default() };
+    };
+    let centroid = if asked.centroids { local.centroid(normal, length) } else { DVec3::ZERO };
     Frame {
+        share,
+        bend,
+        mean_normal,
         normal,
         size: ((0.5 * length).sqrt() / local.scale / local.factor).min(f64::MAX),
         centroid: (centroid / local.scale / local.factor).clamp(DVec3::splat(-f64::MAX), DVec3::splat(f64::MAX)),
@@ -156,7 +201,7 @@ fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], centroid
 pub(crate) struct Frames<'a, S> {
     points: &'a StridedPoints<'a, S>,
     polygons: &'a Polygons,
-    centroids: bool,
+    asked: Asked<'a>,
     all: Option<Vec<Frame>>,
 }
 
@@ -166,14 +211,14 @@ impl<'a, S: Coordinate> Frames<'a, S> {
     pub(crate) fn new(
         points: &'a StridedPoints<'a, S>,
         polygons: &'a Polygons,
-        centroids: bool,
+        asked: Asked<'a>,
         few: bool,
         threads: usize,
     ) -> Result<Self, Error> {
-        let mut frames = Frames { points, polygons, centroids, all: None };
+        let mut frames = Frames { points, polygons, asked, all: None };
         if !few {
             let mut all = filled(polygons.face_count(), Frame::default())?;
-            parallel::fill(threads, &mut all, |face| frame(points, polygons.face(face), centroids));
+            parallel::fill(threads, &mut all, |face| frame(points, polygons.face(face), asked));
             frames.all = Some(all);
         }
         Ok(frames)
@@ -184,7 +229,7 @@ impl<'a, S: Coordinate> Frames<'a, S> {
     pub(crate) fn get(&self, face: usize) -> Frame {
         match &self.all {
             Some(all) => all[face],
-            None => frame(self.points, self.polygons.face(face), self.centroids),
+            None => frame(self.points, self.polygons.face(face), self.asked),
         }
     }
 

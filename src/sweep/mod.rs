@@ -22,10 +22,10 @@ pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};
 use crate::parallel::{Claims, Run, for_each_chunk};
-use crate::simd::{MAX_LANES, Real, Task, Vector, Vector3, Width, dispatch};
+use crate::simd::{Real, Task, Vector, Vector3, Width, dispatch};
 use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
-use frames::Frames;
+use frames::{Asked, Frames};
 use glam::DVec3;
 use ring::{Polygon, PolygonFaces, Triangles};
 use rows::{LANE_EDGES, LaneRows, LargeRows, Rows};
@@ -33,8 +33,17 @@ use std::sync::{Mutex, PoisonError};
 
 /// An estimator over one-rings, and where its results go.
 pub(crate) trait Quantity: Sync {
+    /// Whether it is ever computed in single precision.
+    const SINGLE: bool = true;
     /// Whether polygons need their centroids.
-    const CENTROIDS: bool;
+    const CENTROIDS: bool = false;
+    /// Whether the angles of polygons that are not flat are made up to those of flat ones.
+    const FLAT_ANGLES: bool = false;
+
+    /// The normals of all vertices, where rings are to hold those of the neighbours.
+    fn neighbour_normals(&self) -> Option<&[[f64; 3]]> {
+        None
+    }
 
     /// Computes and writes the vertices of a block; answers with a bit for each lane that it did not write, because
     /// its result cannot be trusted at this precision.
@@ -165,9 +174,14 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
 ) -> Result<(), Error> {
     let few = run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
     let frames = match topology.polygons() {
-        Some(polygons) => Some(Frames::new(points, polygons, Q::CENTROIDS, few, run.threads)?),
+        Some(polygons) => {
+            let normals = quantity.neighbour_normals();
+            let asked = Asked { centroids: Q::CENTROIDS, bends: Q::FLAT_ANGLES, normals };
+            Some(Frames::new(points, polygons, asked, few, run.threads)?)
+        }
         None => None,
     };
+    let normals = quantity.neighbour_normals().map(StridedPoints::from);
     let (vertices, level) = (run.vertices, run.level);
     let chunks = vertices.map_or(topology.rings().windows(), |vertices| vertices.len().div_ceil(WINDOW));
     // The one buffer whose size depends on the mesh is there before the first result is written. Vertices that need it
@@ -181,7 +195,7 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
         }
     };
     let large = Mutex::new(LargeRows::new(large)?);
-    let sweep = Sweep { topology, points, frames, vertices, double, quantity, large: &large };
+    let sweep = Sweep { topology, points, frames, normals, vertices, double, quantity, large: &large };
     for_each_chunk(run, chunks, |claims| dispatch(level, Worker { sweep: &sweep, claims }))
 }
 
@@ -189,6 +203,7 @@ struct Sweep<'a, Q, S> {
     topology: &'a Topology,
     points: &'a StridedPoints<'a, S>,
     frames: Option<Frames<'a, S>>,
+    normals: Option<StridedPoints<'a, f64>>,
     vertices: Option<&'a [u32]>,
     double: bool,
     quantity: &'a Q,
@@ -234,10 +249,10 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     }
                     RingClass::Lanes { corners, closed } => (corners, closed),
                 };
-                if single {
+                if Q::SINGLE && single {
                     let mut count = 0;
                     for block in vertices.chunks(W::Single::LANES) {
-                        let bits = sweep.block(block, corners, closed, &mut single_rows);
+                        let bits = sweep.block::<W, _>(block, corners, closed, &mut single_rows);
                         if bits != 0 {
                             for (_, &vertex) in block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0) {
                                 doubtful[count] = vertex;
@@ -248,7 +263,7 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     vertices = &doubtful[..count];
                 }
                 for block in vertices.chunks(W::Double::LANES) {
-                    let bits = sweep.block(block, corners, closed, &mut double_rows);
+                    let bits = sweep.block::<W, _>(block, corners, closed, &mut double_rows);
                     if bits != 0 {
                         for (lane, &vertex) in block.iter().enumerate() {
                             if bits & 1 << lane != 0 {
@@ -264,10 +279,17 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
 
 impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
     #[inline(always)]
-    fn block<V: Vector>(&self, block: &[u32], corners: usize, closed: bool, rows: &mut LaneRows<V>) -> u32 {
-        let Rows { edges, squared, faces, mut scratch } = rows.rows();
+    fn block<W: Width, V: Vector>(&self, block: &[u32], corners: usize, closed: bool, rows: &mut LaneRows<V>) -> u32 {
+        let Rows { edges, squared, normals, faces, mut scratch } = rows.rows();
         let edges = &mut edges[..corners + 1];
         let squared = &mut squared[..corners + 1];
+        let normals: &[_] = match &self.normals {
+            Some(values) => {
+                self.topology.rings().load_values(values, block, corners, closed, normals);
+                &normals[..corners + 1]
+            }
+            None => &[],
+        };
         self.topology.rings().load_edges(self.points, block, corners, closed, edges);
         let mut extent = V::zero();
         for edge in edges.iter() {
@@ -279,10 +301,11 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         if let (false, Some(frames)) = (V::Scalar::SINGLE, &self.frames) {
             let faces = &mut faces[..corners];
             self.load_faces(frames, block, scale, faces);
-            let ring = Ring { edges, squared, closed, faces: PolygonFaces(faces) };
-            self.quantity.block(block, &ring, scale, &mut scratch)
+            let ring = Ring { edges, squared, closed, faces: PolygonFaces(faces), normals };
+            call::<W, _, _, _>(self.quantity, block, &ring, scale, &mut scratch)
         } else {
-            self.quantity.block(block, &Ring { edges, squared, closed, faces: Triangles }, scale, &mut scratch)
+            let ring = Ring { edges, squared, closed, faces: Triangles, normals };
+            call::<W, _, _, _>(self.quantity, block, &ring, scale, &mut scratch)
         }
     }
 
@@ -291,33 +314,18 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
     fn load_faces<V: Vector>(&self, frames: &Frames<'_, S>, block: &[u32], scale: V, faces: &mut [Polygon<V>]) {
         let scales = scale.to_lanes();
         for (corner, face) in faces.iter_mut().enumerate() {
-            let mut normal = [[V::Scalar::ZERO; MAX_LANES]; 3];
-            let mut centroid = [[V::Scalar::ZERO; MAX_LANES]; 3];
-            let mut area = [V::Scalar::ZERO; MAX_LANES];
-            let mut may_turn = [V::Scalar::ZERO; MAX_LANES];
-            for lane in 0..V::LANES {
+            let lane = |lane: usize| {
                 let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
                 let index = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
-                let loaded = self.load_face(frames, index, vertex, 1.0, scales[lane].into());
-                area[lane] = V::Scalar::from_f64(loaded.area);
-                may_turn[lane] = if loaded.may_turn { V::Scalar::ONE } else { V::Scalar::ZERO };
-                for axis in 0..3 {
-                    normal[axis][lane] = V::Scalar::from_f64(loaded.normal[axis]);
-                    centroid[axis][lane] = V::Scalar::from_f64(loaded.centroid[axis]);
-                }
-            }
-            *face = Polygon {
-                normal: Vector3::from_lanes(&normal),
-                area: V::from_lanes(&area),
-                centroid: Vector3::from_lanes(&centroid),
-                may_turn: V::from_lanes(&may_turn),
+                self.load_face(frames, index, vertex, 1.0, scales[lane].into())
             };
+            *face = Polygon::from_lanes(lane);
         }
     }
 
     /// A face as a vertex sees it, in units of `scale` to a length of the mesh times `factor`.
     #[inline(always)]
-    fn load_face(&self, frames: &Frames<'_, S>, face: usize, vertex: usize, factor: f64, scale: f64) -> LoadedFace {
+    fn load_face(&self, frames: &Frames<'_, S>, face: usize, vertex: usize, factor: f64, scale: f64) -> Polygon<f64> {
         let frame = frames.get(face);
         // A face may be larger than the ring by any amount, but its square must stay in range.
         const LARGEST: f64 = (1u128 << 100) as f64;
@@ -328,7 +336,15 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             let offset = frame.centroid * factor + (point(frames.first_corner(face) as usize) - point(vertex));
             centroid = offset * scale;
         }
-        LoadedFace { normal: frame.normal, area: size * size, centroid, may_turn: frame.may_turn }
+        Polygon {
+            normal: frame.normal.into(),
+            area: size * size,
+            centroid: centroid.into(),
+            share: frame.share,
+            bend: frame.bend,
+            mean_normal: frame.mean_normal.into(),
+            may_turn: if frame.may_turn { 1.0 } else { 0.0 },
+        }
     }
 
     /// The vertex-by-vertex path.
@@ -342,7 +358,7 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
     }
 
     fn alone_in(&self, vertex: usize, rows: Rows<'_, f64>) {
-        let Rows { edges, squared, faces, mut scratch } = rows;
+        let Rows { edges, squared, normals, faces, mut scratch } = rows;
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
         let mut factor = 1.0;
@@ -354,24 +370,41 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         let (edges, squared) = (&mut edges[..count], &mut squared[..count]);
         let scale = extent.unit_scale();
         scale_edges(edges, squared, scale);
+        let normals: &[_] = match &self.normals {
+            Some(values) => {
+                self.load_normals_alone(vertex, values, normals);
+                &normals[..count]
+            }
+            None => &[],
+        };
         if let Some(frames) = &self.frames {
             let mut corners = 0;
             let ring_start = self.topology.rings().ring_range(vertex).start;
             for fan in self.topology.fans(vertex) {
                 for corner in 0..fan.corner_count {
                     let face = frames.face_of(ring_start + fan.start + corner);
-                    let face = self.load_face(frames, face, vertex, factor, scale);
-                    let may_turn = if face.may_turn { 1.0 } else { 0.0 };
-                    let (normal, centroid) = (lane(face.normal), lane(face.centroid));
-                    faces[corners] = Polygon { normal, area: face.area, centroid, may_turn };
+                    faces[corners] = self.load_face(frames, face, vertex, factor, scale);
                     corners += 1;
                 }
             }
-            let fans = VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(&faces[..corners]));
+            let fans =
+                VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(&faces[..corners]), normals);
             self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
         } else {
-            let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles);
+            let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles, normals);
             self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
+        }
+    }
+
+    /// Fills `normals` with those of the neighbours, in the order of [`Sweep::load_alone`].
+    fn load_normals_alone(&self, vertex: usize, values: &StridedPoints<'_, f64>, normals: &mut [Vector3<f64>]) {
+        let mut count = 0;
+        for fan in self.topology.fans(vertex) {
+            let around = fan.neighbours.iter().chain(fan.neighbours.first().filter(|_| fan.closed));
+            for &neighbour in around {
+                normals[count] = values.get(neighbour as usize).into();
+                count += 1;
+            }
         }
     }
 
@@ -393,16 +426,34 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
     }
 }
 
-/// A polygon as a vertex sees it, in the ring's units.
-struct LoadedFace {
-    normal: DVec3,
-    area: f64,
-    centroid: DVec3,
-    may_turn: bool,
+/// [`Quantity::block`] as a function of its own, which positions of either precision share.
+#[inline(always)]
+fn call<W: Width, Q: Quantity, V: Vector, F: RingFaces<V>>(
+    quantity: &Q,
+    vertices: &[u32],
+    ring: &Ring<'_, V, F>,
+    scale: V,
+    scratch: &mut Scratch<'_, V>,
+) -> u32 {
+    let mut untrusted = 0;
+    W::call(Block { quantity, vertices, ring, scale, scratch, untrusted: &mut untrusted });
+    untrusted
 }
 
-fn lane(vector: DVec3) -> Vector3<f64> {
-    Vector3 { x: vector.x, y: vector.y, z: vector.z }
+struct Block<'a, 'r, 's, Q, V, F> {
+    quantity: &'a Q,
+    vertices: &'a [u32],
+    ring: &'a Ring<'r, V, F>,
+    scale: V,
+    scratch: &'a mut Scratch<'s, V>,
+    untrusted: &'a mut u32,
+}
+
+impl<Q: Quantity, V: Vector, F: RingFaces<V>> Task for Block<'_, '_, '_, Q, V, F> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        *self.untrusted = self.quantity.block(self.vertices, self.ring, self.scale, self.scratch);
+    }
 }
 
 #[inline(always)]

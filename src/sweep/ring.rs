@@ -4,7 +4,7 @@
 //! to between 1 and 2. So nothing is lost far from the origin, and no square of a length overflows or vanishes,
 //! whatever the size of the mesh. A mesh of triangles and one of polygons differ only in [`RingFaces`].
 
-use crate::simd::{Real, Vector, Vector3, atan2_and_reciprocal};
+use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3, atan2_and_reciprocal};
 use crate::topology::Topology;
 
 /// One fan around a vertex, in every lane.
@@ -17,6 +17,8 @@ pub(crate) struct Ring<'a, V, F> {
     pub closed: bool,
     /// The faces at the corners.
     pub faces: F,
+    /// The normals of the neighbours, one for each edge; none where no estimator asks for them.
+    pub normals: &'a [Vector3<V>],
 }
 
 impl<V: Vector, F: RingFaces<V>> Ring<'_, V, F> {
@@ -24,6 +26,25 @@ impl<V: Vector, F: RingFaces<V>> Ring<'_, V, F> {
     #[inline(always)]
     pub fn corner_count(&self) -> usize {
         self.edges.len() - 1
+    }
+
+    /// The number of different edges.
+    #[inline(always)]
+    pub fn edge_count(&self) -> usize {
+        self.corner_count() + !self.closed as usize
+    }
+
+    /// Fills a row with a number for each corner: `row[j + 1]` is that of corner `j`, so edge `j` lies between `row[j]`
+    /// and `row[j + 1]`. Beyond the ends of an open fan stands zero.
+    #[inline(always)]
+    pub fn fill_corners(&self, row: &mut [V], number: impl Fn(&Corner<V, F::Face>) -> V) {
+        let corners = self.corner_count();
+        let row = &mut row[..corners + 2];
+        for index in 0..corners {
+            row[index + 1] = number(&self.corner(index));
+        }
+        row[0] = if self.closed { row[corners] } else { V::zero() };
+        row[corners + 1] = if self.closed { row[1] } else { V::zero() };
     }
 
     /// The corner between edges `index` and `index + 1`.
@@ -43,6 +64,8 @@ pub(crate) struct VertexFans<'a, F> {
     squared: &'a [f64],
     /// Fan after fan.
     faces: F,
+    /// Fan after fan, as `edges`, or none.
+    normals: &'a [Vector3<f64>],
 }
 
 impl<'a, F: RingFaces<f64>> VertexFans<'a, F> {
@@ -52,8 +75,9 @@ impl<'a, F: RingFaces<f64>> VertexFans<'a, F> {
         edges: &'a [Vector3<f64>],
         squared: &'a [f64],
         faces: F,
+        normals: &'a [Vector3<f64>],
     ) -> Self {
-        VertexFans { topology, vertex, edges, squared, faces }
+        VertexFans { topology, vertex, edges, squared, faces, normals }
     }
 
     /// The fans as rings of one lane, in the same units.
@@ -65,9 +89,10 @@ impl<'a, F: RingFaces<f64>> VertexFans<'a, F> {
             (edge, corner) = (edges.end, corners.end);
             Ring {
                 edges: &self.edges[edges.clone()],
-                squared: &self.squared[edges],
+                squared: &self.squared[edges.clone()],
                 closed: fan.closed,
                 faces: self.faces.part(corners),
+                normals: self.normals.get(edges).unwrap_or(&[]),
             }
         })
     }
@@ -98,6 +123,17 @@ pub(crate) trait Face<V: Vector>: Copy {
     fn sine_product(&self, corner: &Corner<V, Self>) -> V;
     /// The squared distance of the face's centroid from the vertex.
     fn centroid_squared(&self, corner: &Corner<V, Self>) -> V;
+    /// The part of the face's area that lies nearest to the vertex: Meyer's mixed area in a triangle, an equal share
+    /// for each corner in a polygon.
+    fn mixed_area(&self, corner: &Corner<V, Self>) -> V;
+    /// An equal share of the face's area for each of its corners.
+    fn area_share(&self, corner: &Corner<V, Self>) -> V;
+    /// The interior angle as Gauss and Bonnet need it: those of a triangle sum up to π and those of a polygon to
+    /// `(n − 2)π`, slivers, edges without length and polygons that are not flat included.
+    fn flat_angle(&self, corner: &Corner<V, Self>) -> V;
+    /// Where the face is not a triangle: from the vertex to its centroid, the mean of the normals of its corners, and 1;
+    /// elsewhere zeros. `None` in a mesh of triangles.
+    fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)>;
 }
 
 /// Two neighbouring edges and the face between them.
@@ -159,6 +195,39 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
     pub fn centroid_squared(&self) -> V {
         self.face.centroid_squared(self)
     }
+    /// [`Face::mixed_area`]
+    #[inline(always)]
+    pub fn mixed_area(&self) -> V {
+        self.face.mixed_area(self)
+    }
+    /// [`Face::area_share`]
+    #[inline(always)]
+    pub fn area_share(&self) -> V {
+        self.face.area_share(self)
+    }
+    /// [`Face::flat_angle`]
+    #[inline(always)]
+    pub fn flat_angle(&self) -> V {
+        self.face.flat_angle(self)
+    }
+    /// [`Face::centre`]
+    #[inline(always)]
+    pub fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)> {
+        self.face.centre()
+    }
+    /// The mixed area (Meyer et al. 2003, figure 4) of the triangle that the two edges span.
+    #[inline(always)]
+    fn triangle_mixed_area(&self) -> V {
+        let twice_area = self.cross_length();
+        let (a, b, dot) = (self.a.squared(), self.b.squared(), self.a.dot(self.b));
+        // The cotangents at the far ends of a and b, times twice the area.
+        let (at_a, at_b) = (a - dot, b - dot);
+        let voronoi = (a * at_b + b * at_a) * twice_area.reciprocal_or_zero() * V::constant(0.125);
+        let obtuse_here = dot.lt(V::zero());
+        let obtuse_there = at_a.min(at_b).lt(V::zero());
+        let blunt = twice_area * V::select(obtuse_here, V::constant(0.25), V::constant(0.125));
+        V::select(obtuse_here.or(obtuse_there), blunt, voronoi)
+    }
     /// How much a term `factor × direction` may have lost to rounding, squared and in units of its last place: the
     /// cross product of nearly parallel edges keeps only `sine` of its digits. Infinite where a face is degenerate.
     ///
@@ -172,6 +241,23 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
             (self.direction() * factor).squared()
         }
     }
+}
+
+/// The angle between two edges of a face; beyond π where the face has a normal, may turn (1, else 0) and they run
+/// around each other against it. An edge without length counts as if it stood upright on the other, and two of them as
+/// if they were those of an equilateral triangle: so the angles of a triangle add up to π, whatever it is like.
+#[inline(always)]
+pub(crate) fn interior_angle<V: Vector>(a: Vector3<V>, b: Vector3<V>, normal: Vector3<V>, may_turn: V) -> V {
+    let cross = a.cross(b);
+    let squared = cross.squared();
+    let kept = V::splat(V::Scalar::TINY).lt(squared);
+    let (angle, _) = atan2_and_reciprocal(V::select(kept, squared, V::zero()).sqrt(), a.dot(b));
+    let reflex = (cross.dot(normal) * may_turn).lt(V::zero());
+    let angle = V::select(reflex, V::constant(std::f64::consts::TAU) - angle, angle);
+    let (shorter, longer) = (a.squared().min(b.squared()), a.squared().max(b.squared()));
+    let tiny = V::splat(V::Scalar::TINY);
+    let angle = V::select(tiny.lt(shorter), angle, V::constant(std::f64::consts::FRAC_PI_2));
+    V::select(tiny.lt(longer), angle, V::constant(std::f64::consts::FRAC_PI_3))
 }
 
 /// Every face is the triangle that its corner spans.
@@ -219,6 +305,22 @@ impl<V: Vector> Face<V> for Triangle {
     fn centroid_squared(&self, corner: &Corner<V, Self>) -> V {
         (corner.a + corner.b).squared() * V::constant(1.0 / 9.0)
     }
+    #[inline(always)]
+    fn mixed_area(&self, corner: &Corner<V, Self>) -> V {
+        corner.triangle_mixed_area()
+    }
+    #[inline(always)]
+    fn area_share(&self, corner: &Corner<V, Self>) -> V {
+        corner.cross_length() * V::constant(1.0 / 6.0)
+    }
+    #[inline(always)]
+    fn flat_angle(&self, corner: &Corner<V, Self>) -> V {
+        interior_angle(corner.a, corner.b, Vector3::zero(), V::zero())
+    }
+    #[inline(always)]
+    fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)> {
+        None
+    }
 }
 
 /// Faces of any shape, one for each corner.
@@ -245,8 +347,42 @@ pub(crate) struct Polygon<V> {
     pub area: V,
     /// From the vertex to the centroid; zero where no estimator asks for it.
     pub centroid: Vector3<V>,
+    /// One by the number of corners.
+    pub share: V,
+    /// How much each angle falls short of those of a flat polygon; zero where no estimator asks for it.
+    pub bend: V,
+    /// The mean of the normals of its corners; zero where no estimator asks for it.
+    pub mean_normal: Vector3<V>,
     /// 1 if a corner may be reflex, 0 at a triangle, whose corners only rounding could turn.
     pub may_turn: V,
+}
+
+impl<V: Vector> Polygon<V> {
+    /// The polygon `face(lane)` in each lane.
+    #[inline(always)]
+    pub fn from_lanes(face: impl Fn(usize) -> Polygon<f64>) -> Self {
+        const NUMBERS: usize = 13;
+        let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; NUMBERS];
+        for lane in 0..V::LANES {
+            let Polygon { normal, area, centroid, share, bend, mean_normal, may_turn } = face(lane);
+            let [n, c, m] = [normal, centroid, mean_normal].map(|v| [v.x, v.y, v.z]);
+            let numbers = [n[0], n[1], n[2], c[0], c[1], c[2], m[0], m[1], m[2], area, share, bend, may_turn];
+            for (row, number) in lanes.iter_mut().zip(numbers) {
+                row[lane] = V::Scalar::from_f64(number);
+            }
+        }
+        let row = |index: usize| V::from_lanes(&lanes[index]);
+        let vector = |first: usize| Vector3 { x: row(first), y: row(first + 1), z: row(first + 2) };
+        Polygon {
+            normal: vector(0),
+            centroid: vector(3),
+            mean_normal: vector(6),
+            area: row(9),
+            share: row(10),
+            bend: row(11),
+            may_turn: row(12),
+        }
+    }
 }
 
 impl<V: Vector> Face<V> for Polygon<V> {
@@ -276,6 +412,22 @@ impl<V: Vector> Face<V> for Polygon<V> {
     #[inline(always)]
     fn centroid_squared(&self, _corner: &Corner<V, Self>) -> V {
         self.centroid.squared()
+    }
+    #[inline(always)]
+    fn mixed_area(&self, corner: &Corner<V, Self>) -> V {
+        V::select(V::zero().lt(self.may_turn), self.area * self.share, corner.triangle_mixed_area())
+    }
+    #[inline(always)]
+    fn area_share(&self, _corner: &Corner<V, Self>) -> V {
+        self.area * self.share
+    }
+    #[inline(always)]
+    fn flat_angle(&self, corner: &Corner<V, Self>) -> V {
+        interior_angle(corner.a, corner.b, self.normal, self.may_turn) + self.bend
+    }
+    #[inline(always)]
+    fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)> {
+        Some((self.centroid * self.may_turn, self.mean_normal * self.may_turn, self.may_turn))
     }
 }
 

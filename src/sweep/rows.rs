@@ -12,6 +12,7 @@ pub(super) const LANE_EDGES: usize = MAX_LANE_CORNERS + 1;
 pub(super) struct LaneRows<V> {
     edges: [Vector3<V>; LANE_EDGES],
     squared: [V; LANE_EDGES],
+    normals: [Vector3<V>; LANE_EDGES],
     faces: [Polygon<V>; LANE_EDGES],
     vectors: [Vector3<V>; LANE_EDGES + 1],
     numbers: [[V; LANE_EDGES + 1]; 3],
@@ -21,6 +22,7 @@ pub(super) struct LaneRows<V> {
 pub(super) struct LargeRows {
     edges: Vec<Vector3<f64>>,
     squared: Vec<f64>,
+    normals: Vec<Vector3<f64>>,
     faces: Vec<Polygon<f64>>,
     vectors: Vec<Vector3<f64>>,
     numbers: [Vec<f64>; 3],
@@ -32,6 +34,8 @@ pub(super) struct Rows<'a, V> {
     pub edges: &'a mut [Vector3<V>],
     /// Their squared lengths.
     pub squared: &'a mut [V],
+    /// The normals of the neighbours, where an estimator asks for them.
+    pub normals: &'a mut [Vector3<V>],
     /// Faces, where they are not triangles.
     pub faces: &'a mut [Polygon<V>],
     /// For the estimator.
@@ -39,7 +43,15 @@ pub(super) struct Rows<'a, V> {
 }
 
 fn no_face<V: Vector>() -> Polygon<V> {
-    Polygon { normal: Vector3::zero(), area: V::zero(), centroid: Vector3::zero(), may_turn: V::zero() }
+    Polygon {
+        normal: Vector3::zero(),
+        area: V::zero(),
+        centroid: Vector3::zero(),
+        share: V::zero(),
+        bend: V::zero(),
+        mean_normal: Vector3::zero(),
+        may_turn: V::zero(),
+    }
 }
 
 impl<V: Vector> LaneRows<V> {
@@ -48,6 +60,7 @@ impl<V: Vector> LaneRows<V> {
         LaneRows {
             edges: [Vector3::zero(); LANE_EDGES],
             squared: [V::zero(); LANE_EDGES],
+            normals: [Vector3::zero(); LANE_EDGES],
             faces: [no_face(); LANE_EDGES],
             vectors: [Vector3::zero(); LANE_EDGES + 1],
             numbers: [[V::zero(); LANE_EDGES + 1]; 3],
@@ -59,6 +72,7 @@ impl<V: Vector> LaneRows<V> {
         Rows {
             edges: &mut self.edges,
             squared: &mut self.squared,
+            normals: &mut self.normals,
             faces: &mut self.faces,
             scratch: Scratch {
                 vectors: &mut self.vectors,
@@ -76,6 +90,7 @@ impl LargeRows {
         Ok(LargeRows {
             edges: filled(edges, Vector3::zero())?,
             squared: filled(edges, 0.0)?,
+            normals: filled(edges, Vector3::zero())?,
             faces: filled(edges, no_face())?,
             vectors: filled(scratch, Vector3::zero())?,
             numbers: [numbers()?, numbers()?, numbers()?],
@@ -86,6 +101,7 @@ impl LargeRows {
         Rows {
             edges: &mut self.edges,
             squared: &mut self.squared,
+            normals: &mut self.normals,
             faces: &mut self.faces,
             scratch: Scratch {
                 vectors: &mut self.vectors,

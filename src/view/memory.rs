@@ -3,15 +3,19 @@
 use crate::error::Error;
 use std::alloc::{Layout, alloc_zeroed};
 
-/// Integers of which all bits zero is a value.
+/// Numbers of which all bits zero is a value.
 ///
 /// # Safety
 /// All zero bytes are a valid value.
 pub(crate) unsafe trait Zero: Copy {}
-// SAFETY: integers, and arrays of them.
+// SAFETY: numbers, and arrays of them.
+unsafe impl Zero for u8 {}
+// SAFETY: as above.
 unsafe impl Zero for u32 {}
 // SAFETY: as above.
-unsafe impl<const N: usize> Zero for [u32; N] {}
+unsafe impl Zero for f64 {}
+// SAFETY: as above.
+unsafe impl<T: Zero, const N: usize> Zero for [T; N] {}
 
 /// A vector of `count` zeros, or [`Error::OutOfMemory`].
 ///

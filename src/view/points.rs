@@ -102,6 +102,17 @@ impl<'a> Points<'a> {
     }
 }
 
+impl<'a> From<&'a [[f64; 3]]> for StridedPoints<'a, f64> {
+    fn from(points: &'a [[f64; 3]]) -> Self {
+        StridedPoints {
+            base: points.as_ptr().cast(),
+            count: points.len(),
+            stride: size_of::<[f64; 3]>(),
+            memory: PhantomData,
+        }
+    }
+}
+
 impl<'a, S: Coordinate> StridedPoints<'a, S> {
     /// # Safety
     /// As [`Points::from_raw_f32`].

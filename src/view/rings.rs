@@ -257,6 +257,34 @@ impl Rings {
         closed: bool,
         edges: &mut [Vector3<V>],
     ) {
+        self.load::<true, V, S>(points, vertices, corners, closed, edges);
+    }
+
+    /// As [`Rings::load_edges`], but loads what `values` hold for the neighbours, and subtracts nothing.
+    ///
+    /// # Panics
+    /// As [`Rings::load_edges`].
+    #[inline(always)]
+    pub(crate) fn load_values<V: Vector, S: Coordinate>(
+        &self,
+        values: &StridedPoints<'_, S>,
+        vertices: &[u32],
+        corners: usize,
+        closed: bool,
+        loaded: &mut [Vector3<V>],
+    ) {
+        self.load::<false, V, S>(values, vertices, corners, closed, loaded);
+    }
+
+    #[inline(always)]
+    fn load<const RELATIVE: bool, V: Vector, S: Coordinate>(
+        &self,
+        points: &StridedPoints<'_, S>,
+        vertices: &[u32],
+        corners: usize,
+        closed: bool,
+        edges: &mut [Vector3<V>],
+    ) {
         assert!(points.len() >= self.vertex_count() && !vertices.is_empty() && vertices.len() <= V::LANES);
         let class = RingClass::Lanes { corners, closed }.code();
         let edges = &mut edges[..corners + 1];
@@ -273,9 +301,9 @@ impl Rings {
         // many as there are edges, are inside the tables and are vertices other than the last.
         unsafe {
             if points.is_packed() {
-                self.load_neighbours::<true, V, S>(points, &centres, &starts, neighbours);
+                self.load_neighbours::<RELATIVE, true, V, S>(points, &centres, &starts, neighbours);
             } else {
-                self.load_neighbours::<false, V, S>(points, &centres, &starts, neighbours);
+                self.load_neighbours::<RELATIVE, false, V, S>(points, &centres, &starts, neighbours);
             }
         }
         if closed {
@@ -287,7 +315,7 @@ impl Rings {
     /// In each lane, `centres` and the entries of the ring table from `starts` on, one for each edge, are points other
     /// than the last; if `WIDE`, points are packed.
     #[inline(always)]
-    unsafe fn load_neighbours<const WIDE: bool, V: Vector, S: Coordinate>(
+    unsafe fn load_neighbours<const RELATIVE: bool, const WIDE: bool, V: Vector, S: Coordinate>(
         &self,
         points: &StridedPoints<'_, S>,
         centres: &[u32; MAX_LANES],
@@ -302,7 +330,8 @@ impl Rings {
                 for lane in 0..V::LANES {
                     indices[lane] = *self.neighbours.get_unchecked(starts[lane] as usize + slot);
                 }
-                *edge = gather::<WIDE, V, S>(points, &indices) - centre;
+                let point = gather::<WIDE, V, S>(points, &indices);
+                *edge = if RELATIVE { point - centre } else { point };
             }
         }
     }

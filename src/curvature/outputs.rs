@@ -1,0 +1,336 @@
+//! Where curvatures go, and how a row of lanes is written there.
+
+use super::principal::{Frame, Operator, positive};
+use crate::error::Error;
+use crate::simd::{Mask, Vector, Vector3, atan2_and_reciprocal};
+use crate::topology::status;
+use crate::view::{Output, ScalarOutput, StatusOutput};
+
+/// Where the results of [`curvatures`](super::curvatures) go; all are optional, and each has an element for every vertex.
+///
+/// Signs: positive where the surface bends away from the normal, so a sphere of radius `r` with outward normals has
+/// `k1 = k2 = H = 1/r`. Not every method has every output: see [`Method`](super::Method). Values beyond the scalar's range
+/// become its largest.
+#[derive(Debug, Default)]
+pub struct CurvatureOutputs<'a> {
+    /// The larger principal curvature, 1/length.
+    pub k1: Option<ScalarOutput<'a>>,
+    /// The smaller principal curvature, 1/length.
+    pub k2: Option<ScalarOutput<'a>>,
+    /// The unit tangent direction of `k1`, `#V × 3`. The first of its largest components is positive.
+    pub direction1: Option<Output<'a>>,
+    /// The unit tangent direction of `k2`: the normal × `direction1`.
+    pub direction2: Option<Output<'a>>,
+    /// Mean curvature `H`, 1/length.
+    pub mean: Option<ScalarOutput<'a>>,
+    /// Gaussian curvature `K`, 1/length².
+    pub gaussian: Option<ScalarOutput<'a>>,
+    /// The mean curvature normal `H N`, `#V × 3`, 1/length; outwards on a sphere with outward normals.
+    pub mean_normal: Option<Output<'a>>,
+    /// The area that the vertex stands for, length².
+    pub area: Option<ScalarOutput<'a>>,
+    /// Mean curvature integrated over that area, length.
+    pub integrated_mean: Option<ScalarOutput<'a>>,
+    /// Gaussian curvature integrated over that area, without unit.
+    pub integrated_gaussian: Option<ScalarOutput<'a>>,
+    /// Koenderink's shape index `(2/π) atan((k1 + k2) / (k1 − k2))`: 1 at a cap, 0.5 on a ridge, 0 at a symmetric saddle
+    /// and in a plane, −0.5 in a rut, −1 in a cup.
+    pub shape_index: Option<ScalarOutput<'a>>,
+    /// Koenderink's curvedness `√((k1² + k2²) / 2)`, 1/length.
+    pub curvedness: Option<ScalarOutput<'a>>,
+    /// The root mean square of what a fit left over: 1/length where curvatures were fitted, length where heights were.
+    pub residual: Option<ScalarOutput<'a>>,
+    /// The condition number of a fit.
+    pub condition: Option<ScalarOutput<'a>>,
+    /// The unit normal to which all of this belongs: the one given or computed, or the fit's own.
+    pub normal: Option<Output<'a>>,
+    /// [`status`] bits.
+    pub status: Option<StatusOutput<'a>>,
+}
+
+/// Kinds of outputs that a method has or has not.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Kinds(u16);
+
+impl Kinds {
+    pub const PRINCIPAL: Kinds = Kinds(1);
+    pub const DIRECTIONS: Kinds = Kinds(2);
+    pub const MEAN: Kinds = Kinds(4);
+    pub const GAUSSIAN: Kinds = Kinds(8);
+    pub const AREA: Kinds = Kinds(16);
+    pub const INTEGRATED_MEAN: Kinds = Kinds(32);
+    pub const INTEGRATED_GAUSSIAN: Kinds = Kinds(64);
+    pub const RESIDUAL: Kinds = Kinds(128);
+    pub const CONDITION: Kinds = Kinds(256);
+
+    /// Those of either.
+    pub const fn and(self, other: Kinds) -> Kinds {
+        Kinds(self.0 | other.0)
+    }
+
+    /// Whether all of `other` are among these.
+    pub fn has(self, other: Kinds) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+impl CurvatureOutputs<'_> {
+    /// Refuses arrays of the wrong length, and outputs of other kinds than `provided`.
+    pub(crate) fn check(&self, vertex_count: usize, provided: Kinds) -> Result<(), Error> {
+        let check = |what: &'static str, found: Option<usize>, kind: Kinds| match found {
+            Some(found) if found != vertex_count => {
+                Err(Error::Size { what, found: found as u64, expected: vertex_count as u64 })
+            }
+            Some(_) if !provided.has(kind) => Err(Error::NotApplicable { what }),
+            _ => Ok(()),
+        };
+        let scalar = |output: &Option<ScalarOutput<'_>>| output.as_ref().map(Output::len);
+        let vector = |output: &Option<Output<'_>>| output.as_ref().map(Output::len);
+        check("outputs.k1", scalar(&self.k1), Kinds::PRINCIPAL)?;
+        check("outputs.k2", scalar(&self.k2), Kinds::PRINCIPAL)?;
+        check("outputs.direction1", vector(&self.direction1), Kinds::DIRECTIONS)?;
+        check("outputs.direction2", vector(&self.direction2), Kinds::DIRECTIONS)?;
+        check("outputs.mean", scalar(&self.mean), Kinds::MEAN)?;
+        check("outputs.gaussian", scalar(&self.gaussian), Kinds::GAUSSIAN)?;
+        check("outputs.mean_normal", vector(&self.mean_normal), Kinds::MEAN)?;
+        check("outputs.area", scalar(&self.area), Kinds::AREA)?;
+        check("outputs.integrated_mean", scalar(&self.integrated_mean), Kinds::INTEGRATED_MEAN)?;
+        check("outputs.integrated_gaussian", scalar(&self.integrated_gaussian), Kinds::INTEGRATED_GAUSSIAN)?;
+        check("outputs.shape_index", scalar(&self.shape_index), Kinds::PRINCIPAL)?;
+        check("outputs.curvedness", scalar(&self.curvedness), Kinds::PRINCIPAL)?;
+        check("outputs.residual", scalar(&self.residual), Kinds::RESIDUAL)?;
+        check("outputs.condition", scalar(&self.condition), Kinds::CONDITION)?;
+        check("outputs.normal", vector(&self.normal), Kinds(0))?;
+        check("outputs.status", self.status.as_ref().map(StatusOutput::len), Kinds(0))
+    }
+}
+
+/// What a method found at the vertices of a row of lanes, in units in which lengths are about 1.
+#[derive(Clone, Copy)]
+pub(crate) struct Local<V: Vector> {
+    pub normal: Vector3<V>,
+    pub k1: V,
+    pub k2: V,
+    pub direction1: Vector3<V>,
+    pub mean: V,
+    pub gaussian: V,
+    pub mean_normal: Vector3<V>,
+    pub area: V,
+    pub integrated_mean: V,
+    pub integrated_gaussian: V,
+    pub residual: V,
+    pub condition: V,
+    /// Whether there is a result at all.
+    pub usable: V::Mask,
+    /// Whether the input left something undetermined that had to be filled in.
+    pub fallback: V::Mask,
+}
+
+/// Larger numbers would leave the range when they are squared; a result that has one is none.
+const LARGEST: f64 = f64::from_bits((1023 + 500) << 52);
+
+impl<V: Vector> Local<V> {
+    /// Nothing found yet.
+    #[inline(always)]
+    pub fn new(normal: Vector3<V>) -> Self {
+        let zero = V::zero();
+        Local {
+            normal,
+            k1: zero,
+            k2: zero,
+            direction1: Vector3::zero(),
+            mean: zero,
+            gaussian: zero,
+            mean_normal: Vector3::zero(),
+            area: zero,
+            integrated_mean: zero,
+            integrated_gaussian: zero,
+            residual: zero,
+            condition: zero,
+            usable: V::zero().lt(V::one()),
+            fallback: V::one().lt(V::zero()),
+        }
+    }
+
+    /// All that follows from a shape operator.
+    #[inline(always)]
+    pub fn of_operator(frame: &Frame<V>, operator: &Operator<V>) -> Self {
+        let found = operator.principal();
+        let (c, s) = found.direction;
+        Local {
+            k1: found.k1,
+            k2: found.k2,
+            direction1: positive(frame.x * c + frame.y * s),
+            mean: found.mean,
+            gaussian: found.gaussian,
+            mean_normal: frame.normal * found.mean,
+            ..Local::new(frame.normal)
+        }
+    }
+
+    /// All that follows from mean and Gaussian curvature; where they contradict each other (`K > H²`), both principal
+    /// curvatures are `H`.
+    #[inline(always)]
+    pub fn of_mean_and_gaussian(normal: Vector3<V>, mean: V, gaussian: V) -> Self {
+        let radius = (mean * mean - gaussian).max(V::zero()).sqrt();
+        Local {
+            k1: mean + radius,
+            k2: mean - radius,
+            mean,
+            gaussian,
+            mean_normal: normal * mean,
+            ..Local::new(normal)
+        }
+    }
+
+    /// Drops the result of lanes where a number has left the range.
+    #[inline(always)]
+    fn in_range(&self) -> V::Mask {
+        let size = |vector: Vector3<V>| vector.x.abs() + vector.y.abs() + vector.z.abs();
+        let sum = self.k1.abs()
+            + self.k2.abs()
+            + self.mean.abs()
+            + self.gaussian.abs()
+            + self.area.abs()
+            + self.integrated_mean.abs()
+            + self.integrated_gaussian.abs()
+            + self.residual.abs()
+            + self.condition.abs()
+            + size(self.direction1)
+            + size(self.mean_normal)
+            + size(self.normal);
+        // What is not a number compares as false.
+        sum.lt(V::constant(LARGEST))
+    }
+
+    /// Lanes that have a result.
+    #[inline(always)]
+    pub fn trusted(&self) -> u32 {
+        self.usable.and(self.in_range()).bits()
+    }
+}
+
+/// Says which status a lane gets.
+pub(crate) struct Statuses<'a> {
+    /// Those that follow from the faces alone.
+    pub flags: &'a [u8],
+    /// For all lanes.
+    pub more: u8,
+}
+
+impl CurvatureOutputs<'_> {
+    /// Writes the lanes of `lanes` (bits) of a block. `scale` is how many of the result's units of length make one of the
+    /// mesh, and `residual_power` the power of length in which residuals are.
+    #[inline(always)]
+    pub(crate) fn write<V: Vector>(
+        &self,
+        vertices: &[u32],
+        lanes: u32,
+        found: &Local<V>,
+        scale: V,
+        residual_power: i32,
+        statuses: &Statuses<'_>,
+    ) {
+        // Macros, because a closure that is not inlined would lose the CPU features of its level.
+        macro_rules! each_lane {
+            ($vertex:ident, $lane:ident, $write:expr) => {
+                for ($lane, &$vertex) in vertices.iter().enumerate() {
+                    if lanes & 1 << $lane != 0 {
+                        $write;
+                    }
+                }
+            };
+        }
+        macro_rules! scalar {
+            ($output:ident, $value:expr) => {
+                if let Some(output) = &self.$output {
+                    let values = $value.to_lanes();
+                    each_lane!(vertex, lane, output.write(vertex as usize, [values[lane].into()]));
+                }
+            };
+        }
+        macro_rules! vector {
+            ($output:ident, $value:expr) => {
+                if let Some(output) = &self.$output {
+                    let value = $value;
+                    let [x, y, z] = [value.x.to_lanes(), value.y.to_lanes(), value.z.to_lanes()];
+                    each_lane!(
+                        vertex,
+                        lane,
+                        output.write(vertex as usize, [x[lane].into(), y[lane].into(), z[lane].into()])
+                    );
+                }
+            };
+        }
+        scalar!(k1, found.k1 * scale);
+        scalar!(k2, found.k2 * scale);
+        vector!(direction1, found.direction1);
+        vector!(direction2, found.normal.cross(found.direction1));
+        scalar!(mean, found.mean * scale);
+        scalar!(gaussian, found.gaussian * scale * scale);
+        vector!(mean_normal, found.mean_normal * scale);
+        scalar!(area, found.area / scale / scale);
+        scalar!(integrated_mean, found.integrated_mean / scale);
+        scalar!(integrated_gaussian, found.integrated_gaussian);
+        scalar!(shape_index, shape_index(found.k1, found.k2));
+        scalar!(curvedness, curvedness(found.k1, found.k2) * scale);
+        scalar!(residual, if residual_power > 0 { found.residual / scale } else { found.residual * scale });
+        scalar!(condition, found.condition);
+        vector!(normal, found.normal);
+        if let Some(output) = &self.status {
+            let fallback = found.fallback.bits();
+            for (lane, &vertex) in vertices.iter().enumerate() {
+                if lanes & 1 << lane != 0 {
+                    let fallback = if fallback & 1 << lane != 0 { status::FALLBACK } else { 0 };
+                    output.write(vertex as usize, statuses.flags[vertex as usize] | statuses.more | fallback);
+                }
+            }
+        }
+    }
+
+    /// Writes zeros (and the normal, if there is one) at a vertex without result.
+    pub(crate) fn write_none(&self, vertex: usize, normal: [f64; 3], status: u8) {
+        let scalars = [
+            &self.k1,
+            &self.k2,
+            &self.mean,
+            &self.gaussian,
+            &self.area,
+            &self.integrated_mean,
+            &self.integrated_gaussian,
+            &self.shape_index,
+            &self.curvedness,
+            &self.residual,
+            &self.condition,
+        ];
+        for output in scalars.into_iter().flatten() {
+            output.write(vertex, [0.0]);
+        }
+        for output in [&self.direction1, &self.direction2, &self.mean_normal].into_iter().flatten() {
+            output.write(vertex, [0.0; 3]);
+        }
+        if let Some(output) = &self.normal {
+            output.write(vertex, normal);
+        }
+        if let Some(output) = &self.status {
+            output.write(vertex, status);
+        }
+    }
+}
+
+/// `(2/π) atan((k1 + k2) / (k1 − k2))`, 0 where both are zero.
+#[inline(always)]
+fn shape_index<V: Vector>(k1: V, k2: V) -> V {
+    let sum = k1 + k2;
+    // Of any size: only the ratio counts.
+    let scale = sum.abs().max(k1 - k2).unit_scale();
+    let (angle, _) = atan2_and_reciprocal(sum.abs() * scale, (k1 - k2) * scale);
+    let index = angle * V::constant(std::f64::consts::FRAC_2_PI);
+    V::select(sum.lt(V::zero()), -index, index)
+}
+
+/// `√((k1² + k2²) / 2)`
+#[inline(always)]
+fn curvedness<V: Vector>(k1: V, k2: V) -> V {
+    ((k1 * k1 + k2 * k2) * V::constant(0.5)).sqrt()
+}

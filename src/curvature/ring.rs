@@ -1,0 +1,122 @@
+//! The driver of all methods that look at one-rings: frames, fans, trust, statuses, outputs.
+
+use super::outputs::{CurvatureOutputs, Local, Statuses};
+use super::principal::Frame;
+use crate::simd::{MAX_LANES, Vector, Vector3};
+use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans};
+use crate::topology::status;
+
+/// A curvature estimator over one-rings. What it adds up goes over all fans of a vertex.
+pub(crate) trait RingEstimator: Sync {
+    /// Whether rings are to hold the normals of the neighbours, and polygons their centroids.
+    const NEIGHBOUR_NORMALS: bool = false;
+    /// As [`Quantity::FLAT_ANGLES`].
+    const FLAT_ANGLES: bool = false;
+    /// Whether a vertex without normal has no result.
+    const NORMAL: bool = true;
+    /// The power of length in which residuals are.
+    const RESIDUAL_POWER: i32 = -1;
+    /// What is added up.
+    type Sums<V: Vector>: Copy;
+
+    /// Nothing added up yet.
+    fn start<V: Vector>() -> Self::Sums<V>;
+    /// Adds a fan.
+    fn add<V: Vector, F: RingFaces<V>>(
+        &self,
+        ring: &Ring<'_, V, F>,
+        frame: &Frame<V>,
+        scratch: &mut Scratch<'_, V>,
+        sums: &mut Self::Sums<V>,
+    );
+    /// What follows from all fans.
+    fn finish<V: Vector>(&self, sums: &Self::Sums<V>, frame: &Frame<V>) -> Local<V>;
+}
+
+/// An estimator with normals, and outputs for its results.
+pub(crate) struct Curvatures<'a, E> {
+    pub outputs: &'a CurvatureOutputs<'a>,
+    /// The topology's.
+    pub flags: &'a [u8],
+    /// Unit normals, zero where there is none.
+    pub normals: &'a [[f64; 3]],
+    pub estimator: E,
+}
+
+/// The normals of a block's vertices; lanes beyond them repeat the first.
+#[inline(always)]
+pub(crate) fn own_normals<V: Vector>(normals: &[[f64; 3]], vertices: &[u32]) -> Vector3<V> {
+    use crate::simd::Real;
+    let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
+    for lane in 0..V::LANES {
+        let normal = normals[*vertices.get(lane).unwrap_or(&vertices[0]) as usize];
+        for axis in 0..3 {
+            lanes[axis][lane] = V::Scalar::from_f64(normal[axis]);
+        }
+    }
+    Vector3::from_lanes(&lanes)
+}
+
+impl<E: RingEstimator> Curvatures<'_, E> {
+    /// Whether a vertex whose normal this is can have a result.
+    #[inline(always)]
+    fn normals_there<V: Vector>(normal: Vector3<V>) -> u32 {
+        use crate::simd::Mask;
+        if E::NORMAL { V::zero().lt(normal.squared()).bits() } else { u32::MAX }
+    }
+}
+
+impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
+    const SINGLE: bool = false;
+    const CENTROIDS: bool = E::NEIGHBOUR_NORMALS;
+    const FLAT_ANGLES: bool = E::FLAT_ANGLES;
+
+    fn neighbour_normals(&self) -> Option<&[[f64; 3]]> {
+        E::NEIGHBOUR_NORMALS.then_some(self.normals)
+    }
+
+    #[inline(always)]
+    fn block<V: Vector, F: RingFaces<V>>(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, V, F>,
+        scale: V,
+        scratch: &mut Scratch<'_, V>,
+    ) -> u32 {
+        let frame = Frame::new(own_normals::<V>(self.normals, vertices));
+        let mut sums = E::start();
+        self.estimator.add(ring, &frame, scratch, &mut sums);
+        let found = self.estimator.finish(&sums, &frame);
+        let all = (1u32 << vertices.len()) - 1;
+        let trusted = found.trusted() & Self::normals_there(frame.normal) & all;
+        let statuses = Statuses { flags: self.flags, more: 0 };
+        self.outputs.write(vertices, trusted, &found, scale, E::RESIDUAL_POWER, &statuses);
+        !trusted & all
+    }
+
+    fn alone<F: RingFaces<f64>>(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, F>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        let vertices = [vertex as u32];
+        let frame = Frame::new(own_normals::<f64>(self.normals, &vertices));
+        let mut sums = E::start();
+        for ring in fans.rings() {
+            self.estimator.add(&ring, &frame, scratch, &mut sums);
+        }
+        let found = self.estimator.finish(&sums, &frame);
+        if found.trusted() & Self::normals_there(frame.normal) & 1 != 0 {
+            let statuses = Statuses { flags: self.flags, more: 0 };
+            self.outputs.write(&vertices, 1, &found, scale, E::RESIDUAL_POWER, &statuses);
+        } else {
+            self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | status::DEGENERATE);
+        }
+    }
+
+    fn isolated(&self, vertex: usize) {
+        self.outputs.write_none(vertex, [0.0; 3], status::ISOLATED);
+    }
+}

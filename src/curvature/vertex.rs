@@ -1,0 +1,204 @@
+//! Curvatures at the vertices of a mesh: checks, vertex normals, and the method asked for.
+
+use super::angle_defect::AngleDefect;
+use super::corrected_measure::CorrectedMeasure;
+use super::measure::{Region, cells_needed, over_region};
+use super::meyer::Meyer;
+use super::normal_cycle::NormalCycle;
+use super::ring::{Curvatures, RingEstimator};
+use super::rusinkiewicz::Rusinkiewicz;
+use super::section::Section;
+use super::shape_operator::LeastSquares;
+use super::taubin::Taubin;
+use super::watanabe::Watanabe;
+use super::{CurvatureOutputs, Method};
+use crate::error::Error;
+use crate::normals::{NormalOutputs, Weight, vertex_normals};
+use crate::parallel::Run;
+use crate::simd::Real;
+use crate::sweep::sweep;
+use crate::topology::{Topology, closure};
+use crate::view::{Points, zeroed};
+
+/// The vertex normals that a method takes.
+#[derive(Clone, Copy, Debug)]
+pub enum VertexNormals<'a> {
+    /// Computed with this weight.
+    Computed(Weight),
+    /// Given, `#V × 3`, of any length but zero; a vertex with a zero normal has none.
+    Given(Points<'a>),
+}
+
+impl Default for VertexNormals<'_> {
+    fn default() -> Self {
+        VertexNormals::Computed(Weight::default())
+    }
+}
+
+/// How [`curvatures`] are computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurvatureOptions<'a> {
+    /// The method.
+    pub method: Method,
+    /// The formula of sections: [`Section::Circle`] or [`Section::SymmetricParabola`].
+    pub section: Section,
+    /// The vertex normals.
+    pub normals: VertexNormals<'a>,
+    /// How many rings around a vertex count; 0 for what the method does by itself. Methods of one ring take 0 or 1.
+    pub rings: usize,
+    /// For the measures, the radius of a ball instead of rings; 0 for none.
+    pub radius: f64,
+}
+
+/// More rings than this are refused.
+const MOST_RINGS: usize = 8;
+
+/// Computes the curvatures of all vertices, or of those in [`Run::vertices`].
+///
+/// Everything is computed in double precision. Results are pointwise unless their name says integrated.
+///
+/// # Errors
+/// [`Error::Size`] where counts do not fit; [`Error::NotApplicable`] for an output or an option that the method does not
+/// have; [`Error::OptionOutOfRange`]; [`Error::NonFinitePosition`]; [`Error::NonFiniteNormal`];
+/// [`Error::IndexOutOfRange`] for a vertex to compute that is none; [`Error::Cancelled`]; [`Error::OutOfMemory`].
+pub fn curvatures(
+    topology: &Topology,
+    points: &Points<'_>,
+    options: &CurvatureOptions<'_>,
+    mut run: Run<'_>,
+    outputs: &CurvatureOutputs<'_>,
+) -> Result<(), Error> {
+    outputs.check(topology.vertex_count(), options.method.provides())?;
+    let region = region(options)?;
+    check_count(topology, points)?;
+    check_list(topology, run.vertices)?;
+    // The vertices whose cells are added up; None for all, or where there are no cells.
+    let cells = match (run.vertices, options.method) {
+        (Some(vertices), Method::NormalCycle | Method::CorrectedMeasure) => {
+            Some(cells_needed(topology, points, vertices, region)?)
+        }
+        _ => None,
+    };
+    let neighbours = matches!(options.method, Method::Rusinkiewicz | Method::CorrectedMeasure);
+    let list = match cells.as_deref().or(run.vertices) {
+        Some(list) if neighbours => Some(closure(topology, list, 1)?),
+        Some(list) => Some(closure(topology, list, 0)?),
+        None => None,
+    };
+    let normals = match options.method {
+        Method::AngleDefect if outputs.normal.is_none() => zeroed(topology.vertex_count())?,
+        _ => normals_of(topology, points, options.normals, &run, list.as_deref())?,
+    };
+    let section = options.section;
+    macro_rules! ring {
+        ($estimator:expr) => {
+            one_ring(topology, points, &mut run, &normals, outputs, $estimator)
+        };
+    }
+    match options.method {
+        Method::LeastSquares => ring!(LeastSquares { section }),
+        Method::Taubin => ring!(Taubin { section }),
+        Method::Watanabe => ring!(Watanabe { section }),
+        Method::Meyer => ring!(Meyer),
+        Method::AngleDefect => ring!(AngleDefect),
+        Method::Rusinkiewicz => ring!(Rusinkiewicz),
+        Method::NormalCycle => {
+            over_region::<NormalCycle>(topology, points, run, &normals, outputs, region, cells.as_deref())
+        }
+        Method::CorrectedMeasure => {
+            over_region::<CorrectedMeasure>(topology, points, run, &normals, outputs, region, cells.as_deref())
+        }
+    }
+}
+
+fn one_ring<E: RingEstimator>(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    normals: &[[f64; 3]],
+    outputs: &CurvatureOutputs<'_>,
+    estimator: E,
+) -> Result<(), Error> {
+    sweep(topology, points, run, true, &Curvatures { outputs, flags: topology.flags(), normals, estimator })
+}
+
+/// The region that the options ask for, or why they cannot.
+fn region(options: &CurvatureOptions<'_>) -> Result<Region, Error> {
+    let measure = matches!(options.method, Method::NormalCycle | Method::CorrectedMeasure);
+    if !(options.radius >= 0.0 && options.radius < f64::INFINITY) {
+        return Err(Error::OptionOutOfRange { what: "options.radius" });
+    }
+    if options.rings > MOST_RINGS {
+        return Err(Error::OptionOutOfRange { what: "options.rings" });
+    }
+    if options.radius > 0.0 {
+        return match measure {
+            true if options.rings == 0 => Ok(Region::Ball(options.radius)),
+            true => Err(Error::NotApplicable { what: "options.rings beside options.radius" }),
+            false => Err(Error::NotApplicable { what: "options.radius" }),
+        };
+    }
+    if options.rings > 1 && !measure {
+        return Err(Error::NotApplicable { what: "options.rings" });
+    }
+    Ok(Region::Rings(options.rings.max(1)))
+}
+
+fn check_count(topology: &Topology, points: &Points<'_>) -> Result<(), Error> {
+    let (found, expected) = (points.len() as u64, topology.vertex_count() as u64);
+    if found == expected { Ok(()) } else { Err(Error::Size { what: "points.count", found, expected }) }
+}
+
+/// Refuses vertices to compute that are none.
+fn check_list(topology: &Topology, vertices: Option<&[u32]>) -> Result<(), Error> {
+    let vertex_count = topology.vertex_count();
+    let beyond = |&vertex: &u32| vertex as usize >= vertex_count;
+    let Some((vertices, position)) =
+        vertices.and_then(|vertices| vertices.iter().position(beyond).map(|position| (vertices, position)))
+    else {
+        return Ok(());
+    };
+    let (index, vertex_count) = (vertices[position] as i128, vertex_count as u64);
+    Err(Error::IndexOutOfRange { what: "run.vertices", position: position as u64, index, vertex_count })
+}
+
+/// Unit normals of the vertices of `list`, or of all; zero where there is none.
+fn normals_of(
+    topology: &Topology,
+    points: &Points<'_>,
+    asked: VertexNormals<'_>,
+    run: &Run<'_>,
+    list: Option<&[u32]>,
+) -> Result<Vec<[f64; 3]>, Error> {
+    let mut normals: Vec<[f64; 3]> = zeroed(topology.vertex_count())?;
+    match asked {
+        VertexNormals::Computed(weight) => {
+            let first = Run { threads: run.threads, level: run.level, vertices: list, progress: None };
+            let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
+            vertex_normals(topology, points, weight, first, &outputs)?;
+        }
+        VertexNormals::Given(given) => {
+            if given.len() != topology.vertex_count() {
+                let (found, expected) = (given.len() as u64, topology.vertex_count() as u64);
+                return Err(Error::Size { what: "normals.count", found, expected });
+            }
+            let mut take = |vertex: usize| {
+                let normal = given.get(vertex);
+                if !normal.is_finite() {
+                    return Err(Error::NonFiniteNormal { vertex: vertex as u64 });
+                }
+                // Twice, since the largest factor does not lift the smallest numbers all the way.
+                let normal = normal * normal.abs().max_element().inverse_power_of_two();
+                let normal = normal * normal.abs().max_element().inverse_power_of_two();
+                let length = normal.length();
+                normals[vertex] = if length > 0.0 { (normal / length).to_array() } else { [0.0; 3] };
+                Ok(())
+            };
+            match list {
+                Some(list) => list.iter().try_for_each(|&vertex| take(vertex as usize))?,
+                None => (0..topology.vertex_count()).try_for_each(take)?,
+            }
+        }
+    }
+    Ok(normals)
+}
