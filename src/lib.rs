@@ -15,12 +15,13 @@
 //! ```
 //!
 //! The [C interface](capi) is the same library behind `include/umbilic.h`. `ARCHITECTURE.md` tells how the parts hang
-//! together: imports run downwards only, `capi → normals → sweep → topology → view, simd, parallel → error`.
+//! together: imports run downwards only, `capi → normals → fit → sweep → topology → view, simd, parallel → error`.
 
 #![deny(missing_docs)]
 
 pub mod capi;
 mod error;
+mod fit;
 mod normals;
 mod parallel;
 mod simd;
@@ -29,6 +30,7 @@ mod topology;
 mod view;
 
 pub use error::Error;
+pub use fit::JetOptions;
 pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 pub use parallel::Run;
 pub use simd::Level;

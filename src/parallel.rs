@@ -30,6 +30,18 @@ impl Default for Run<'_> {
     }
 }
 
+impl Run<'_> {
+    /// Has `work` done by a run like this one whose progress is the part from `from` to `to` of this one's.
+    pub(crate) fn part<T>(&mut self, from: f64, to: f64, work: impl FnOnce(Run<'_>) -> T) -> T {
+        let Run { threads, level, vertices, .. } = *self;
+        let Some(whole) = &mut self.progress else {
+            return work(Run { threads, level, vertices, progress: None });
+        };
+        let mut part = |fraction: f64| whole(from + (to - from) * fraction);
+        work(Run { threads, level, vertices, progress: Some(&mut part) })
+    }
+}
+
 impl std::fmt::Debug for Run<'_> {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         out.debug_struct("Run")
@@ -92,7 +104,7 @@ impl Claims<'_, '_> {
 }
 
 /// How many threads to use for `chunks` chunks if the caller asks for `wanted`, 0 meaning as many as pay.
-fn thread_count(wanted: usize, chunks: usize) -> usize {
+pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
     let most = match wanted {
         0 => chunks / CHUNKS_A_THREAD,
         wanted => wanted.min(chunks),

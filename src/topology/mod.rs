@@ -3,12 +3,14 @@
 mod build;
 mod fans;
 mod flat;
+mod neighbourhood;
 mod polygons;
 mod stats;
 
 pub use stats::TopologyStats;
 
 pub(crate) use flat::NO_FACE;
+pub(crate) use neighbourhood::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
 pub(crate) use polygons::Polygons;
 
 use crate::error::{Error, reserved};
@@ -29,6 +31,8 @@ pub mod status {
     pub const FALLBACK: u8 = 16;
     /// Nothing at all could be computed; the results are zero.
     pub const DEGENERATE: u8 = 32;
+    /// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
+    pub const WIDENED: u8 = 64;
 }
 
 /// The one-rings of a mesh.

@@ -3,15 +3,19 @@
 use crate::error::Error;
 use std::alloc::{Layout, alloc_zeroed};
 
-/// Integers of which all bits zero is a value.
+/// Numbers of which all bits zero is a value.
 ///
 /// # Safety
 /// All zero bytes are a valid value.
 pub(crate) unsafe trait Zero: Copy {}
-// SAFETY: integers, and arrays of them.
+// SAFETY: an integer.
 unsafe impl Zero for u32 {}
 // SAFETY: as above.
 unsafe impl<const N: usize> Zero for [u32; N] {}
+// SAFETY: all bits zero is +0.
+unsafe impl Zero for f64 {}
+// SAFETY: as above.
+unsafe impl Zero for [f64; 3] {}
 
 /// A vector of `count` zeros, or [`Error::OutOfMemory`].
 ///
