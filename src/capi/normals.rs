@@ -291,7 +291,10 @@ fn weight(options: &umb_normal_options) -> Result<Weight, Error> {
             let small = |what, value: u32| {
                 u8::try_from(value).map_err(|_| Error::UnknownConstant { what, value: value as u64 })
             };
-            Weight::Jet(JetOptions { degree: small("degree", options.degree)?, rings: small("rings", options.rings)? })
+            Weight::Jet(JetOptions {
+                degree: small("degree", options.degree)?,
+                rings: small("rings", options.rings)?,
+            })
         }
         value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
     })

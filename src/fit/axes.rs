@@ -153,3 +153,86 @@ fn rotate<V: Vector<Scalar = f64>, const P: usize, const Q: usize, const R: usiz
     axes[P] = p * cosine - q * sine;
     axes[Q] = p * sine + q * cosine;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(points: &[[f64; 3]], normal: [f64; 3]) -> Axes<f64> {
+        let flat: Vec<f64> = points.iter().flatten().copied().collect();
+        let [x, y, z] = normal;
+        let patch = Patch::of_points(&flat, Vector3 { x, y, z });
+        let axes = Axes::principal(&patch);
+        for (a, b) in [(axes.x, axes.y), (axes.y, axes.z), (axes.z, axes.x)] {
+            assert!((a.squared() - 1.0).abs() < 1e-15 && a.dot(b).abs() < 1e-15, "{points:?}");
+        }
+        assert!((axes.x.cross(axes.y).dot(axes.z) - 1.0).abs() < 1e-15);
+        assert!(axes.z.dot(patch.normal) >= 0.0);
+        // Eigenvectors: the covariance leaves their directions alone, and none has less variance than z.
+        let [xx, xy, xz, yy, yz, zz] = covariance(&patch);
+        let variance = |a: Vector3<f64>, b: Vector3<f64>| {
+            xx * a.x * b.x
+                + xy * (a.x * b.y + a.y * b.x)
+                + xz * (a.x * b.z + a.z * b.x)
+                + yy * a.y * b.y
+                + yz * (a.y * b.z + a.z * b.y)
+                + zz * a.z * b.z
+        };
+        let trace = xx + yy + zz;
+        for (a, b) in [(axes.x, axes.y), (axes.y, axes.z), (axes.z, axes.x)] {
+            assert!(variance(a, b).abs() <= 1e-15 * trace, "{points:?}: {:e}", variance(a, b) / trace);
+        }
+        for other in [axes.x, axes.y] {
+            assert!(variance(axes.z, axes.z) <= variance(other, other) + 1e-15 * trace);
+        }
+        axes
+    }
+
+    #[test]
+    fn principal_axes_of_clouds_of_every_kind() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for round in 0..4000 {
+            let count = 1 + round % 30;
+            let stretch = [1.0, 10f64.powi(-(round as i32 % 17)), 10f64.powi(-(round as i32 % 23))];
+            let about = Axes::about({
+                let v = Vector3 { x: next(), y: next(), z: next() };
+                v * (1.0 / v.squared().sqrt())
+            });
+            let points: Vec<[f64; 3]> = (0..count)
+                .map(|_| {
+                    let p = about.vector(next() * stretch[0], next() * stretch[1], next() * stretch[2]);
+                    [p.x, p.y, p.z].map(|x| if round % 5 == 0 { (2.0 * x).round() } else { x })
+                })
+                .collect();
+            let normal = match round % 3 {
+                0 => [0.0; 3],
+                1 => [about.z.x, about.z.y, about.z.z],
+                _ => [about.x.x, about.x.y, about.x.z],
+            };
+            check(&points, normal);
+        }
+        // The smallest and the most regular.
+        check(&[], [0.0; 3]);
+        check(&[[0.0; 3]; 4], [0.0, 0.0, -1.0]);
+        check(&[[1.0, 1.0, 1.0], [-1.0, -1.0, -1.0]], [0.0, 1.0, 0.0]);
+        check(
+            &[
+                [1.0, 0.0, 0.0],
+                [-1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, -1.0, 0.0],
+                [0.0, 0.0, 1.0],
+                [0.0, 0.0, -1.0],
+            ],
+            [0.0, 0.6, -0.8],
+        );
+        // A plane through two coordinate axes is found to the last bit.
+        let plane: Vec<[f64; 3]> = (0..20).map(|_| [next(), 0.0, next()]).collect();
+        let axes = check(&plane, [0.0, -1.0, 0.0]);
+        assert_eq!((axes.z.x, axes.z.y, axes.z.z), (0.0, -1.0, 0.0));
+    }
+}

@@ -144,8 +144,7 @@ fn reflect<V: Vector<Scalar = f64>, const C: usize>(
 ) -> V {
     let length = pivot.len();
     let mut parts = columns.chunks_exact_mut(rows);
-    let columns: [&mut [V]; C] =
-        std::array::from_fn(|_| parts.next().map_or(&mut [][..], |column| &mut column[k..]));
+    let columns: [&mut [V]; C] = std::array::from_fn(|_| parts.next().map_or(&mut [][..], |column| &mut column[k..]));
     for column in &columns {
         // So that no access below needs to be checked.
         assert!(column.len() == length && length > 0);
@@ -168,4 +167,100 @@ fn reflect<V: Vector<Scalar = f64>, const C: usize>(
         squared = squared + columns[0][row] * columns[0][row];
     }
     squared
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn product(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// The residual of the solution is perpendicular to every column, as long as is said, and the unknowns are those that the
+    /// right-hand side was made from; whatever the columns' units.
+    fn check<const K: usize>(rows: usize, next: &mut impl FnMut() -> f64) {
+        let units: Vec<f64> = (0..K).map(|_| 10f64.powf(30.0 * next())).collect();
+        let matrix: Vec<f64> = (0..K * rows).map(|i| next() * units[i / rows]).collect();
+        let known: Vec<f64> = (0..K).map(|k| next() / units[k]).collect();
+        let noise: Vec<f64> = (0..rows).map(|_| 0.1 * next()).collect();
+        for noisy in [false, true] {
+            let right: Vec<f64> = (0..rows)
+                .map(|row| {
+                    let exact: f64 = (0..K).map(|k| matrix[k * rows + row] * known[k]).sum();
+                    exact + if noisy { noise[row] } else { 0.0 }
+                })
+                .collect();
+            let mut columns = [&matrix[..], &right[..]].concat();
+            let found = solve::<f64, K>(&mut columns, rows);
+            assert!(found.trusted);
+            let condition = condition(&columns, rows, &found);
+            assert!(condition >= K as f64 * 0.999, "{condition}");
+            let left: Vec<f64> = (0..rows)
+                .map(|row| right[row] - (0..K).map(|k| matrix[k * rows + row] * found.unknowns[k]).sum::<f64>())
+                .collect();
+            for k in 0..K {
+                let column = &matrix[k * rows..(k + 1) * rows];
+                assert!(product(column, &left).abs() <= 1e-14 * condition * units[k] * rows as f64);
+                if !noisy {
+                    let error = (found.unknowns[k] - known[k]) * units[k];
+                    assert!(error.abs() < 1e-14 * condition, "{K} of {rows}: {error:e}, {condition}");
+                }
+            }
+            let expected = product(&left, &left);
+            assert!((found.residual_squared - expected).abs() < 1e-12 * expected + 1e-26 * condition);
+            // More rows of zeros change no bit.
+            let padded: Vec<f64> = [&matrix[..], &right[..]]
+                .concat()
+                .chunks(rows)
+                .flat_map(|column| [column, &[0.0; 5][..]].concat())
+                .collect();
+            let mut padded = padded;
+            let again = solve::<f64, K>(&mut padded, rows + 5);
+            assert!(again.trusted);
+            assert_eq!(again.unknowns, found.unknowns);
+            assert_eq!(again.residual_squared, found.residual_squared);
+        }
+    }
+
+    #[test]
+    fn solutions_are_those_of_least_squares() {
+        let mut next = random(1);
+        for round in 0..200 {
+            check::<3>(3 + round % 40 + 1, &mut next);
+            check::<6>(6 + round % 40 + 2, &mut next);
+            check::<10>(10 + round % 60 + 3, &mut next);
+            check::<15>(15 + round % 240 + 4, &mut next);
+        }
+    }
+
+    #[test]
+    fn dependent_columns_are_not_trusted() {
+        let mut next = random(2);
+        for dependence in [0.0, 1e-300, 1e-160, 1e-16, 1e-7, 1e-6] {
+            let mut columns: Vec<f64> = (0..7 * 12).map(|_| next()).collect();
+            for row in 0..12 {
+                columns[5 * 12 + row] = 3.0 * columns[12 + row] - columns[2 * 12 + row] + dependence * next();
+            }
+            assert!(!solve::<f64, 6>(&mut columns, 12).trusted, "{dependence:e}");
+        }
+        for scale in [0.0, f64::NAN, f64::INFINITY] {
+            let mut columns: Vec<f64> = (0..7 * 12).map(|_| next()).collect();
+            columns[30] *= scale;
+            assert_eq!(solve::<f64, 6>(&mut columns, 12).trusted, scale == 0.0);
+            columns.iter_mut().for_each(|x| *x *= scale);
+            assert!(!solve::<f64, 6>(&mut columns, 12).trusted);
+        }
+        // Too few rows, filled up with zeros.
+        let mut columns: Vec<f64> = (0..7 * 12).map(|i| if i % 12 < 5 { next() } else { 0.0 }).collect();
+        assert!(!solve::<f64, 6>(&mut columns, 12).trusted);
+    }
 }

@@ -251,7 +251,8 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
         let mut group = [Member { vertex: 0, start: 0, count: 0, widened: false }; GROUP];
         while let Some(chunk) = claims.next() {
             let first = chunk * GROUP;
-            let length = sweep.vertices.map_or(sweep.topology.vertex_count(), <[u32]>::len).min(first + GROUP) - first;
+            let length =
+                sweep.vertices.map_or(sweep.topology.vertex_count(), <[u32]>::len).min(first + GROUP) - first;
             let mut count = 0;
             let mut end = 0;
             for index in first..first + length {
@@ -370,8 +371,8 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
     fn alone(&self, vertex: u32, neighbourhood: &mut Neighbourhood, numbers: &mut [f64]) {
         let mut widened = self.gather(vertex, neighbourhood);
         loop {
-            let last = neighbourhood.is_complete()
-                || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
+            let last =
+                neighbourhood.is_complete() || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
             if self.alone_in(vertex, neighbourhood.vertices(), widened, last, numbers) || last {
                 return;
             }
