@@ -93,6 +93,11 @@
 #define UMB_VERTEX_DEGENERATE 32
 
 /**
+ * The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
+ */
+#define UMB_VERTEX_WIDENED 64
+
+/**
  * The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
  * used from any number of threads at once.
  */
@@ -326,7 +331,7 @@ typedef struct umb_points {
 } umb_points;
 
 /**
- * How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
+ * How a vertex normal weighs the faces around the vertex, or what it fits: a `UMB_WEIGHT_` constant.
  *
  * N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
  * polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
@@ -395,6 +400,16 @@ typedef struct umb_normal_options {
    * How to run.
    */
   struct umb_run run;
+  /**
+   * `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
+   */
+  uint32_t degree;
+  /**
+   * `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
+   * degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
+   * than 255 vertices are used. Other weights do not look at it.
+   */
+  uint32_t rings;
 } umb_normal_options;
 
 /**
@@ -457,7 +472,7 @@ typedef struct umb_normal_outputs {
    * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
    * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
    * status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-   * stands.
+   * stands. For jets, which sum nothing, it is the unit normal itself.
    */
   struct umb_output sum;
   /**
@@ -699,6 +714,14 @@ typedef struct umb_face_outputs {
  */
 #define UMB_WEIGHT_ANGLE_EDGES 9
 
+/**
+ * No average, but the normal of an osculating jet (Cazals and Pouget 2005): a polynomial height field, fitted by least
+ * squares to the vertices within several rings, over their plane of least squares. See `degree` and `rings` of
+ * `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
+ * creases it rounds what the averages keep. The area-weighted normal says to which side it points.
+ */
+#define UMB_WEIGHT_JET 10
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -847,7 +870,7 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
                             struct umb_error *error);
 
 /**
- * Computes vertex normals over the one-rings of a topology.
+ * Computes vertex normals over the one-rings of a topology, or, for jets, over several rings.
  *
  * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
  * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
@@ -856,9 +879,15 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
+ * Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
+ * widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
+ * degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
+ * degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
+ * (`UMB_VERTEX_FALLBACK`).
+ *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
  * the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
- * triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+ * triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
  * bits for any number of threads, any vectors and any choice of vertices.
  *
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.

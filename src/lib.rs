@@ -15,13 +15,14 @@
 //! ```
 //!
 //! The [C interface](capi) is the same library behind `include/umbilic.h`. `ARCHITECTURE.md` tells how the parts hang
-//! together: imports run downwards only, `capi → normals → sweep → topology → view, simd, parallel → error`.
+//! together: imports run downwards only, `capi → normals → fit → sweep → topology → view, simd, parallel → error`.
 
 #![deny(missing_docs)]
 
 pub mod capi;
 mod curvature;
 mod error;
+mod fit;
 mod normals;
 mod parallel;
 mod simd;
@@ -31,6 +32,7 @@ mod view;
 
 pub use curvature::{CurvatureOptions, CurvatureOutputs, Method, Section, VertexNormals, curvatures};
 pub use error::Error;
+pub use fit::JetOptions;
 pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 pub use parallel::Run;
 pub use simd::Level;

@@ -30,6 +30,29 @@ impl Default for Run<'_> {
     }
 }
 
+impl Run<'_> {
+    /// Has `work` done by a run like this one whose progress is the part from `from` to `to` of this one's.
+    pub(crate) fn part<T>(&mut self, from: f64, to: f64, work: impl FnOnce(Run<'_>) -> T) -> T {
+        self.part_for(self.vertices, from, to, work)
+    }
+
+    /// As [`Run::part`], for other vertices.
+    pub(crate) fn part_for<T>(
+        &mut self,
+        vertices: Option<&[u32]>,
+        from: f64,
+        to: f64,
+        work: impl FnOnce(Run<'_>) -> T,
+    ) -> T {
+        let Run { threads, level, .. } = *self;
+        let Some(whole) = &mut self.progress else {
+            return work(Run { threads, level, vertices, progress: None });
+        };
+        let mut part = |fraction: f64| whole(from + (to - from) * fraction);
+        work(Run { threads, level, vertices, progress: Some(&mut part) })
+    }
+}
+
 impl std::fmt::Debug for Run<'_> {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         out.debug_struct("Run")

@@ -21,7 +21,7 @@ fn layouts() {
     layout!(umb_face_outputs: 72, struct_size 0, reserved 4, normal 8, area_vector 32, status 56);
     layout!(umb_faces: 40, indices 0, index_count 8, offsets 16, face_count 24, index 32, arity 36);
     layout!(umb_fan: 32, neighbours 0, neighbour_count 8, corner_count 16, closed 24, reserved 28);
-    layout!(umb_normal_options: 48, struct_size 0, weight 4, run 8);
+    layout!(umb_normal_options: 56, struct_size 0, weight 4, run 8, degree 48, rings 52);
     layout!(umb_normal_outputs: 72, struct_size 0, reserved 4, normal 8, sum 32, status 56);
     layout!(umb_output: 24, data 0, stride 8, scalar 16, reserved 20);
     layout!(umb_points: 32, data 0, count 8, stride 16, scalar 24, reserved 28);

@@ -212,7 +212,7 @@ fn every_weight_finds_the_normals_of_a_sphere_and_a_torus() {
     let folder = Folder::new();
     folder.succeed("generate sphere -o sphere.ply --resolution 50");
     folder.succeed("generate torus -o torus.ply --resolution 50");
-    let weights = "conformal uniform angle area max centroid-area centroid inverse-root-edges sine angle-edges";
+    let weights = "conformal uniform angle area max centroid-area centroid inverse-root-edges sine angle-edges jet";
     for weight in weights.split(' ') {
         let counts =
             folder.json(&format!("normals sphere.ply -o a.ply --ascii --json --threads 2 --weight {weight}"));

@@ -1,7 +1,7 @@
 //! The same bits for any number of threads, any vectors, any subset, any run.
 
 mod common;
-use common::capi::{Handle, WEIGHTS, normals};
+use common::capi::{ALL, Handle, normals};
 use common::mesh::{self, Mesh};
 use common::real;
 use umbilic::capi::*;
@@ -32,7 +32,7 @@ fn threads_and_vectors_change_no_bit() {
     for mesh in meshes() {
         let handle = Handle::new(&mesh);
         let single = mesh.single();
-        for weight in WEIGHTS {
+        for weight in ALL {
             let base_single = normals(&handle, &single, weight, false, |run| run.threads = 1);
             let base = normals(&handle, &mesh.positions, weight, true, |run| run.threads = 1);
             for (threads, simd) in
@@ -67,7 +67,7 @@ fn a_subset_has_the_bits_of_the_whole() {
             vec![count / 2, 0, count / 2, count - 1, 0],
             vec![],
         ];
-        for weight in WEIGHTS {
+        for weight in ALL {
             let whole = normals(&handle, &mesh.positions, weight, true, |_| ());
             let whole_single = normals(&handle, &single, weight, false, |_| ());
             for list in &lists {

@@ -3,7 +3,7 @@
 #![allow(clippy::undocumented_unsafe_blocks)]
 
 mod common;
-use common::capi::{Handle, Normals, WEIGHTS, normals, widened};
+use common::capi::{ALL, Handle, Normals, WEIGHTS, normals, widened};
 use common::mesh::{self, Mesh, fan};
 use common::{Vector, cross, largest_difference, length, scale, sub, unit};
 use umbilic::capi::*;
@@ -12,10 +12,10 @@ fn double(mesh: &Mesh, weight: umb_weight) -> Normals<f64> {
     normals(&Handle::new(mesh), &mesh.positions, weight, true, |_| ())
 }
 
-/// All weights in both precisions are finite, and unit or zero as the status says.
+/// All weights, jets too, in both precisions are finite, and unit or zero as the status says.
 fn check_finite(mesh: &Mesh) {
     let handle = Handle::new(mesh);
-    for weight in WEIGHTS {
+    for weight in ALL {
         let single = normals(&handle, &mesh.single(), weight, false, |_| ());
         let double = normals(&handle, &mesh.positions, weight, true, |_| ());
         assert!(double.sum.iter().flatten().all(|x| x.is_finite()), "{}, weight {weight}", mesh.name);
@@ -296,7 +296,7 @@ fn all_degenerate_meshes() {
     let repeated = Mesh::new("repeated vertices", vec![[0.0; 3]; 3], vec![vec![0, 0, 1], vec![2, 2, 2], vec![1, 1]]);
     for mesh in [&point, &line, &repeated] {
         check_finite(mesh);
-        for weight in WEIGHTS {
+        for weight in ALL {
             let found = double(mesh, weight);
             assert!(found.normal.iter().all(|normal| *normal == [0.0; 3]), "{}, weight {weight}", mesh.name);
             let no_normal = UMB_VERTEX_DEGENERATE | UMB_VERTEX_ISOLATED;

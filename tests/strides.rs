@@ -3,7 +3,7 @@
 #![allow(clippy::undocumented_unsafe_blocks)]
 
 mod common;
-use common::capi::{Handle, WEIGHTS, normals, zeroed};
+use common::capi::{ALL, Handle, normals, zeroed};
 use common::mesh::{letter_prism, torus};
 use umbilic::capi::*;
 
@@ -25,7 +25,7 @@ struct Vertex {
 fn an_interleaved_buffer_is_read_and_written_in_place() {
     for mesh in [torus(30, 17, 0.3, 0.0, 1), torus(30, 17, 0.3, 0.5, 1), letter_prism()] {
         let handle = Handle::new(&mesh);
-        for weight in WEIGHTS {
+        for weight in ALL {
             for simd in [UMB_SIMD_PORTABLE, UMB_SIMD_SSE2, UMB_SIMD_AVX2, UMB_SIMD_AVX512] {
                 let expected = normals(&handle, &mesh.single(), weight, false, |_| ());
                 let vertex = |position: &[f32; 3]| Vertex {
@@ -74,7 +74,7 @@ fn an_interleaved_buffer_is_read_and_written_in_place() {
 fn scalars_may_be_mixed() {
     let mesh = torus(30, 17, 0.3, 0.0, 2).rounded();
     let handle = Handle::new(&mesh);
-    for weight in WEIGHTS {
+    for weight in ALL {
         let expected = normals(&handle, &mesh.positions, weight, false, |_| ());
         // Positions in f32, normals in f64: computed in f64 from the same numbers.
         let (single, mut found) = (mesh.single(), vec![[0.0f64; 3]; mesh.positions.len()]);
@@ -103,7 +103,7 @@ fn padded_doubles_are_those_of_a_packed_array() {
     let mesh = torus(30, 17, 0.3, 0.0, 3);
     let handle = Handle::new(&mesh);
     let padded: Box<[[f64; 5]]> = mesh.positions.iter().map(|[x, y, z]| [f64::NAN, *x, *y, *z, f64::NAN]).collect();
-    for weight in WEIGHTS {
+    for weight in ALL {
         for simd in [UMB_SIMD_PORTABLE, UMB_SIMD_SSE2, UMB_SIMD_AVX2, UMB_SIMD_AVX512] {
             let expected = normals(&handle, &mesh.positions, weight, false, |_| ());
             let mut found = vec![[0.0f64; 3]; mesh.positions.len()];

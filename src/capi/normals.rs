@@ -5,10 +5,11 @@ use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
 use crate::error::Error;
+use crate::fit::JetOptions;
 use crate::normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 use std::mem::offset_of;
 
-/// How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
+/// How a vertex normal weighs the faces around the vertex, or what it fits: a `UMB_WEIGHT_` constant.
 ///
 /// N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
 /// polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
@@ -37,6 +38,11 @@ pub const UMB_WEIGHT_INVERSE_ROOT_EDGES: umb_weight = 7;
 pub const UMB_WEIGHT_SINE: umb_weight = 8;
 /// theta_i a b
 pub const UMB_WEIGHT_ANGLE_EDGES: umb_weight = 9;
+/// No average, but the normal of an osculating jet (Cazals and Pouget 2005): a polynomial height field, fitted by least
+/// squares to the vertices within several rings, over their plane of least squares. See `degree` and `rings` of
+/// `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
+/// creases it rounds what the averages keep. The area-weighted normal says to which side it points.
+pub const UMB_WEIGHT_JET: umb_weight = 10;
 
 /// Which vertex normals to compute, and how. All zero: N_CM at all vertices.
 #[repr(C)]
@@ -48,6 +54,12 @@ pub struct umb_normal_options {
     pub weight: umb_weight,
     /// How to run.
     pub run: umb_run,
+    /// `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
+    pub degree: u32,
+    /// `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
+    /// degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
+    /// than 255 vertices are used. Other weights do not look at it.
+    pub rings: u32,
 }
 
 /// Where vertex normals go; any of them may be left out.
@@ -63,7 +75,7 @@ pub struct umb_normal_outputs {
     /// The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
     /// and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
     /// status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-    /// stands.
+    /// stands. For jets, which sum nothing, it is the unit normal itself.
     pub sum: umb_output,
     /// `UMB_VERTEX_` bits, `#V`.
     pub status: umb_status_output,
@@ -97,7 +109,7 @@ pub struct umb_face_outputs {
     pub status: umb_status_output,
 }
 
-/// Computes vertex normals over the one-rings of a topology.
+/// Computes vertex normals over the one-rings of a topology, or, for jets, over several rings.
 ///
 /// Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
 /// vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
@@ -106,9 +118,15 @@ pub struct umb_face_outputs {
 /// its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
 /// `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
 ///
+/// Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
+/// widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
+/// degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
+/// degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
+/// (`UMB_VERTEX_FALLBACK`).
+///
 /// Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
 /// the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
-/// triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+/// triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
 /// bits for any number of threads, any vectors and any choice of vertices.
 ///
 /// Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
@@ -142,7 +160,7 @@ pub unsafe extern "C" fn umb_vertex_normals(
             let outputs = vertex_outputs(outputs, topology.vertex_count())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals(topology, &points, weight(options.weight)?, run, &outputs)
+            vertex_normals(topology, &points, weight(&options)?, run, &outputs)
         })
     }
 }
@@ -176,7 +194,7 @@ pub unsafe extern "C" fn umb_vertex_normals_from_faces(
             let outputs = vertex_outputs(outputs, points.len())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals_from_faces(&faces, &points, weight(options.weight)?, run, &outputs)
+            vertex_normals_from_faces(&faces, &points, weight(&options)?, run, &outputs)
         })
     }
 }
@@ -257,8 +275,8 @@ unsafe fn required<T: super::guard::Versioned>(pointer: *const T, what: &'static
     unsafe { read_versioned(pointer) }
 }
 
-fn weight(value: umb_weight) -> Result<Weight, Error> {
-    Ok(match value {
+fn weight(options: &umb_normal_options) -> Result<Weight, Error> {
+    Ok(match options.weight {
         UMB_WEIGHT_CONFORMAL => Weight::Conformal,
         UMB_WEIGHT_UNIFORM => Weight::Uniform,
         UMB_WEIGHT_ANGLE => Weight::Angle,
@@ -269,6 +287,15 @@ fn weight(value: umb_weight) -> Result<Weight, Error> {
         UMB_WEIGHT_INVERSE_ROOT_EDGES => Weight::InverseRootEdges,
         UMB_WEIGHT_SINE => Weight::Sine,
         UMB_WEIGHT_ANGLE_EDGES => Weight::AngleEdges,
+        UMB_WEIGHT_JET => {
+            let small = |what, value: u32| {
+                u8::try_from(value).map_err(|_| Error::UnknownConstant { what, value: value as u64 })
+            };
+            Weight::Jet(JetOptions {
+                degree: small("degree", options.degree)?,
+                rings: small("rings", options.rings)?,
+            })
+        }
         value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
     })
 }

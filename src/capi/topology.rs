@@ -21,11 +21,14 @@ pub const UMB_VERTEX_ISOLATED: u8 = 8;
 pub const UMB_VERTEX_FALLBACK: u8 = 16;
 /// Nothing at all could be computed; the results are zero. Also the status of a face without area.
 pub const UMB_VERTEX_DEGENERATE: u8 = 32;
+/// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
+pub const UMB_VERTEX_WIDENED: u8 = 64;
 
 const _: () = {
     assert!(UMB_VERTEX_BOUNDARY == status::BOUNDARY && UMB_VERTEX_NON_MANIFOLD == status::NON_MANIFOLD);
     assert!(UMB_VERTEX_WINDING == status::WINDING && UMB_VERTEX_ISOLATED == status::ISOLATED);
     assert!(UMB_VERTEX_FALLBACK == status::FALLBACK && UMB_VERTEX_DEGENERATE == status::DEGENERATE);
+    assert!(UMB_VERTEX_WIDENED == status::WIDENED);
 };
 
 /// The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be

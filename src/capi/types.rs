@@ -145,7 +145,7 @@ macro_rules! versioned {
 // The sizes of the first versions, which never change, with pointers of 64 and of 32 bits.
 versioned! {
     umb_topology_options: 8, 8;
-    umb_normal_options: 48, 32;
+    umb_normal_options: 56, 40;
     umb_face_options: 48, 32;
     umb_normal_outputs: 72, 48;
     umb_face_outputs: 72, 48;

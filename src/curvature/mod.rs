@@ -2,11 +2,15 @@
 
 mod angle_defect;
 mod corrected_measure;
+mod goldfeather;
+mod jet;
 mod measure;
 mod meyer;
 mod normal_cycle;
 mod outputs;
+mod patch;
 mod principal;
+mod quadric;
 mod ring;
 mod rusinkiewicz;
 mod section;
@@ -25,6 +29,7 @@ use outputs::Kinds;
 ///
 /// | method | values, directions | `H`, `K` | areas, integrals | residual, condition |
 /// |---|---|---|---|---|
+/// | [`Jet`](Method::Jet), [`Quadric`](Method::Quadric), [`Goldfeather`](Method::Goldfeather) | both | both | | both |
 /// | [`LeastSquares`](Method::LeastSquares), [`Taubin`](Method::Taubin) | both | both | | residual (least squares) |
 /// | [`Watanabe`](Method::Watanabe) | values | both | | |
 /// | [`Meyer`](Method::Meyer) | values | both | all | |
@@ -35,9 +40,16 @@ use outputs::Kinds;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
+    /// Osculating jets (Cazals & Pouget 2005): a polynomial height field of degree 2 to 4 over several rings, whose own
+    /// normal is an output as well. Converges on meshes of any kind, at order `degree − 1`.
+    #[default]
+    Jet,
+    /// A quadratic height field in the frame of a vertex normal, over one ring or more.
+    Quadric,
+    /// Goldfeather & Interrante 2004: a cubic height field fitted to positions and normals of neighbours.
+    Goldfeather,
     /// The shape operator that fits the curvatures of the sections along all edges best (least squares). Exact on spheres
     /// with [`Section::Circle`] and exact normals.
-    #[default]
     LeastSquares,
     /// Taubin 1995: the eigenvalues of an integral of sectional curvatures, weighted by area.
     Taubin,
@@ -57,7 +69,10 @@ pub enum Method {
 
 impl Method {
     /// Every method.
-    pub const ALL: [Method; 8] = [
+    pub const ALL: [Method; 11] = [
+        Method::Jet,
+        Method::Quadric,
+        Method::Goldfeather,
         Method::LeastSquares,
         Method::Taubin,
         Method::Watanabe,
@@ -71,6 +86,9 @@ impl Method {
     /// A name in lower case with dashes, for command lines and files.
     pub fn name(self) -> &'static str {
         match self {
+            Method::Jet => "jet",
+            Method::Quadric => "quadric",
+            Method::Goldfeather => "goldfeather",
             Method::LeastSquares => "least-squares",
             Method::Taubin => "taubin",
             Method::Watanabe => "watanabe",
@@ -92,6 +110,7 @@ impl Method {
         let values = Kinds::PRINCIPAL.and(Kinds::MEAN).and(Kinds::GAUSSIAN);
         let all = values.and(Kinds::DIRECTIONS);
         match self {
+            Method::Jet | Method::Quadric | Method::Goldfeather => all.and(Kinds::RESIDUAL).and(Kinds::CONDITION),
             Method::LeastSquares => all.and(Kinds::RESIDUAL),
             Method::Taubin | Method::Rusinkiewicz => all,
             Method::Watanabe => values,

@@ -2,10 +2,13 @@
 
 use super::angle_defect::AngleDefect;
 use super::corrected_measure::CorrectedMeasure;
+use super::goldfeather::Goldfeather;
 use super::measure::{Region, cells_needed, over_region};
 use super::meyer::Meyer;
 use super::normal_cycle::NormalCycle;
-use super::ring::{Curvatures, RingEstimator};
+use super::patch::PatchCurvatures;
+use super::quadric::Quadric;
+use super::ring::Curvatures;
 use super::rusinkiewicz::Rusinkiewicz;
 use super::section::Section;
 use super::shape_operator::LeastSquares;
@@ -13,10 +16,11 @@ use super::taubin::Taubin;
 use super::watanabe::Watanabe;
 use super::{CurvatureOutputs, Method};
 use crate::error::Error;
-use crate::normals::{NormalOutputs, Weight, vertex_normals};
+use crate::fit::{JetFit, JetOptions, MOST_DEGREE};
+use crate::normals::{NormalOutputs, Weight, reference_normals, vertex_normals};
 use crate::parallel::Run;
 use crate::simd::Real;
-use crate::sweep::sweep;
+use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS, sweep, sweep_patches};
 use crate::topology::{Topology, closure};
 use crate::view::{Points, zeroed};
 
@@ -44,14 +48,13 @@ pub struct CurvatureOptions<'a> {
     pub section: Section,
     /// The vertex normals.
     pub normals: VertexNormals<'a>,
+    /// For jets, the degree, 2 to 4; 0 for 3.
+    pub degree: u8,
     /// How many rings around a vertex count; 0 for what the method does by itself. Methods of one ring take 0 or 1.
     pub rings: usize,
     /// For the measures, the radius of a ball instead of rings; 0 for none.
     pub radius: f64,
 }
-
-/// More rings than this are refused.
-const MOST_RINGS: usize = 8;
 
 /// Computes the curvatures of all vertices, or of those in [`Run::vertices`].
 ///
@@ -70,6 +73,9 @@ pub fn curvatures(
 ) -> Result<(), Error> {
     outputs.check(topology.vertex_count(), options.method.provides())?;
     let region = region(options)?;
+    if options.method == Method::Jet {
+        jet_options(options)?;
+    }
     check_count(topology, points)?;
     check_list(topology, run.vertices)?;
     // The vertices whose cells are added up; None for all, or where there are no cells.
@@ -79,51 +85,92 @@ pub fn curvatures(
         }
         _ => None,
     };
-    let neighbours = matches!(options.method, Method::Rusinkiewicz | Method::CorrectedMeasure);
     let list = match cells.as_deref().or(run.vertices) {
-        Some(list) if neighbours => Some(closure(topology, list, 1)?),
-        Some(list) => Some(closure(topology, list, 0)?),
+        Some(list) => Some(closure(topology, list, normal_rings(options))?),
         None => None,
     };
-    let normals = match options.method {
-        Method::AngleDefect if outputs.normal.is_none() => zeroed(topology.vertex_count())?,
-        _ => normals_of(topology, points, options.normals, &run, list.as_deref())?,
-    };
+    let normals = run.part_for(list.as_deref(), 0.0, NORMAL_SHARE, |run| {
+        match (options.method, options.normals) {
+            (Method::AngleDefect, _) if outputs.normal.is_none() => zeroed(topology.vertex_count()),
+            // A jet only asks which side is which.
+            (Method::Jet, VertexNormals::Computed(_)) => reference_normals(topology, points, run),
+            (_, asked) => normals_of(topology, points, asked, run),
+        }
+    })?;
+    run.part(NORMAL_SHARE, 1.0, |run| by_method(topology, points, options, run, &normals, outputs, cells.as_deref()))
+}
+
+/// The part of the work that goes into the vertex normals, for progress.
+const NORMAL_SHARE: f64 = 0.2;
+
+/// How many rings around a vertex a method needs normals of.
+fn normal_rings(options: &CurvatureOptions<'_>) -> usize {
+    match options.method {
+        Method::Rusinkiewicz | Method::CorrectedMeasure => 1,
+        Method::Goldfeather => options.rings.max(1) + MOST_EXTRA_RINGS,
+        _ => 0,
+    }
+}
+
+fn by_method(
+    topology: &Topology,
+    points: &Points<'_>,
+    options: &CurvatureOptions<'_>,
+    mut run: Run<'_>,
+    normals: &[[f64; 3]],
+    outputs: &CurvatureOutputs<'_>,
+    cells: Option<&[u32]>,
+) -> Result<(), Error> {
+    let flags = topology.flags();
     let section = options.section;
     macro_rules! ring {
         ($estimator:expr) => {
-            one_ring(topology, points, &mut run, &normals, outputs, $estimator)
+            sweep(topology, points, &mut run, true, &Curvatures { outputs, flags, normals, estimator: $estimator })
         };
     }
+    macro_rules! patch {
+        ($estimator:expr) => {{
+            let quantity = PatchCurvatures { outputs, flags, normals, estimator: $estimator };
+            sweep_patches(topology, points, &mut run, &quantity)
+        }};
+    }
+    let region = region(options)?;
+    let condition = outputs.condition.is_some();
+    let rings = options.rings.max(1);
     match options.method {
+        Method::Jet => patch!(JetFit::new(jet_options(options)?, condition)?),
+        Method::Quadric => patch!(Quadric { rings, condition }),
+        Method::Goldfeather => patch!(Goldfeather { rings, condition }),
         Method::LeastSquares => ring!(LeastSquares { section }),
         Method::Taubin => ring!(Taubin { section }),
         Method::Watanabe => ring!(Watanabe { section }),
         Method::Meyer => ring!(Meyer),
         Method::AngleDefect => ring!(AngleDefect),
         Method::Rusinkiewicz => ring!(Rusinkiewicz),
-        Method::NormalCycle => {
-            over_region::<NormalCycle>(topology, points, run, &normals, outputs, region, cells.as_deref())
-        }
+        Method::NormalCycle => over_region::<NormalCycle>(topology, points, run, normals, outputs, region, cells),
         Method::CorrectedMeasure => {
-            over_region::<CorrectedMeasure>(topology, points, run, &normals, outputs, region, cells.as_deref())
+            over_region::<CorrectedMeasure>(topology, points, run, normals, outputs, region, cells)
         }
     }
 }
 
-fn one_ring<E: RingEstimator>(
-    topology: &Topology,
-    points: &Points<'_>,
-    run: &mut Run<'_>,
-    normals: &[[f64; 3]],
-    outputs: &CurvatureOutputs<'_>,
-    estimator: E,
-) -> Result<(), Error> {
-    sweep(topology, points, run, true, &Curvatures { outputs, flags: topology.flags(), normals, estimator })
+/// The options of a jet that has curvatures.
+fn jet_options(options: &CurvatureOptions<'_>) -> Result<JetOptions, Error> {
+    if options.degree == 1 {
+        return Err(Error::NotApplicable { what: "options.degree = 1" });
+    }
+    Ok(JetOptions { degree: options.degree, rings: options.rings as u8 })
 }
 
 /// The region that the options ask for, or why they cannot.
 fn region(options: &CurvatureOptions<'_>) -> Result<Region, Error> {
+    let fit = matches!(options.method, Method::Jet | Method::Quadric | Method::Goldfeather);
+    if options.degree != 0 && options.method != Method::Jet {
+        return Err(Error::NotApplicable { what: "options.degree" });
+    }
+    if options.degree > MOST_DEGREE {
+        return Err(Error::OptionOutOfRange { what: "options.degree" });
+    }
     let measure = matches!(options.method, Method::NormalCycle | Method::CorrectedMeasure);
     if !(options.radius >= 0.0 && options.radius < f64::INFINITY) {
         return Err(Error::OptionOutOfRange { what: "options.radius" });
@@ -138,7 +185,7 @@ fn region(options: &CurvatureOptions<'_>) -> Result<Region, Error> {
             false => Err(Error::NotApplicable { what: "options.radius" }),
         };
     }
-    if options.rings > 1 && !measure {
+    if options.rings > 1 && !measure && !fit {
         return Err(Error::NotApplicable { what: "options.rings" });
     }
     Ok(Region::Rings(options.rings.max(1)))
@@ -162,20 +209,18 @@ fn check_list(topology: &Topology, vertices: Option<&[u32]>) -> Result<(), Error
     Err(Error::IndexOutOfRange { what: "run.vertices", position: position as u64, index, vertex_count })
 }
 
-/// Unit normals of the vertices of `list`, or of all; zero where there is none.
+/// Unit normals of the vertices that `run` asks for; zero where there is none.
 fn normals_of(
     topology: &Topology,
     points: &Points<'_>,
     asked: VertexNormals<'_>,
-    run: &Run<'_>,
-    list: Option<&[u32]>,
+    run: Run<'_>,
 ) -> Result<Vec<[f64; 3]>, Error> {
     let mut normals: Vec<[f64; 3]> = zeroed(topology.vertex_count())?;
     match asked {
         VertexNormals::Computed(weight) => {
-            let first = Run { threads: run.threads, level: run.level, vertices: list, progress: None };
             let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
-            vertex_normals(topology, points, weight, first, &outputs)?;
+            vertex_normals(topology, points, weight, run, &outputs)?;
         }
         VertexNormals::Given(given) => {
             if given.len() != topology.vertex_count() {
@@ -194,7 +239,7 @@ fn normals_of(
                 normals[vertex] = if length > 0.0 { (normal / length).to_array() } else { [0.0; 3] };
                 Ok(())
             };
-            match list {
+            match run.vertices {
                 Some(list) => list.iter().try_for_each(|&vertex| take(vertex as usize))?,
                 None => (0..topology.vertex_count()).try_for_each(take)?,
             }

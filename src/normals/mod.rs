@@ -2,14 +2,18 @@
 
 mod conformal;
 mod face;
+mod jet;
 mod sum;
 mod vertex;
 mod weights;
 
 pub use face::{FaceOutputs, face_normals};
+pub(crate) use vertex::reference_normals;
 pub use vertex::{NormalOutputs, vertex_normals, vertex_normals_from_faces};
 
-/// How a vertex normal weighs the faces, or the edges, around the vertex.
+use crate::fit::JetOptions;
+
+/// How a vertex normal comes about: how it weighs the faces, or the edges, around the vertex, or what it fits.
 ///
 /// `Nᵢ` is the unit normal of face `i` at the vertex, `θᵢ` its interior angle there, `a` and `b` the lengths of its two
 /// edges there, `|fᵢ|` its area, `g` the distance to its centroid.
@@ -39,11 +43,15 @@ pub enum Weight {
     Sine,
     /// `θᵢ a b`
     AngleEdges,
+    /// No average: the normal of an osculating jet (Cazals & Pouget 2005), a polynomial height field fitted to several rings.
+    /// On smooth surfaces of a higher order than any average, and twenty to forty times as expensive. The area-weighted
+    /// normal says to which side it points.
+    Jet(JetOptions),
 }
 
 impl Weight {
-    /// Every weight.
-    pub const ALL: [Weight; 10] = [
+    /// Every weight; jets with their default options.
+    pub const ALL: [Weight; 11] = [
         Weight::Conformal,
         Weight::Uniform,
         Weight::Angle,
@@ -54,9 +62,10 @@ impl Weight {
         Weight::InverseRootEdges,
         Weight::Sine,
         Weight::AngleEdges,
+        Weight::Jet(JetOptions { degree: 0, rings: 0 }),
     ];
 
-    /// A name in lower case with dashes, for command lines and files.
+    /// A name in lower case with dashes, for command lines and files; it says nothing of options.
     pub fn name(self) -> &'static str {
         match self {
             Weight::Conformal => "conformal",
@@ -69,10 +78,11 @@ impl Weight {
             Weight::InverseRootEdges => "inverse-root-edges",
             Weight::Sine => "sine",
             Weight::AngleEdges => "angle-edges",
+            Weight::Jet(_) => "jet",
         }
     }
 
-    /// The weight of that [`Weight::name`].
+    /// The weight of that [`Weight::name`], with default options.
     pub fn from_name(name: &str) -> Option<Weight> {
         Self::ALL.into_iter().find(|weight| weight.name() == name)
     }

@@ -5,6 +5,7 @@
 
 use super::Weight;
 use super::conformal::Conformal;
+use super::jet::jet_normals;
 use super::sum::{Estimator, Sum};
 use super::weights::{
     Angle, AngleEdges, Area, Centroid, CentroidArea, CornerWeight, InverseRootEdges, Max, Sine, Uniform, term,
@@ -14,7 +15,7 @@ use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Topology, status};
-use crate::view::{Faces, Output, Points, StatusOutput};
+use crate::view::{Faces, Output, Points, StatusOutput, zeroed};
 
 /// Where the results of [`vertex_normals`] go; all are optional, and each has an element for every vertex.
 #[derive(Debug, Default)]
@@ -24,7 +25,7 @@ pub struct NormalOutputs<'a> {
     /// The weighted sums before normalisation, `#V × 3`, in the weight's unit: length² for areas, 1/length² for Max
     /// and so on. For [`Weight::Conformal`] the weights of each fan are divided by their total, so the length of a
     /// fan's sum is at most 1. Beyond the scalar's range its largest value stands. Where the status says fallback, it
-    /// is the sum of the fallback.
+    /// is the sum of the fallback. For [`Weight::Jet`], which sums nothing, it is the unit normal itself.
     pub sum: Option<Output<'a>>,
     /// [`status`] bits, `#V`.
     pub status: Option<StatusOutput<'a>>,
@@ -43,7 +44,7 @@ impl NormalOutputs<'_> {
     }
 
     /// Writes one vertex. `sum` is in the mesh's units.
-    fn write(&self, vertex: usize, normal: [f64; 3], sum: [f64; 3], status: u8) {
+    pub(super) fn write(&self, vertex: usize, normal: [f64; 3], sum: [f64; 3], status: u8) {
         if let Some(output) = &self.normal {
             output.write(vertex, normal);
         }
@@ -58,11 +59,12 @@ impl NormalOutputs<'_> {
 
 /// Computes the normals of all vertices, or of those in [`Run::vertices`].
 ///
-/// Single precision is used where positions and outputs are all `f32` and faces are triangles; a vertex whose single-
-/// precision result could be off by more than about 1e-6 is computed again in double precision.
+/// Single precision is used where positions and outputs are all `f32` and faces are triangles, except by
+/// [`Weight::Jet`]; a vertex whose single-precision result could be off by more than about 1e-6 is computed again in double
+/// precision.
 ///
 /// # Errors
-/// [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`]; [`Error::IndexOutOfRange`] for a vertex to
+/// [`Error::UnknownConstant`] for a [`Weight::Jet`] with options out of range; [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`]; [`Error::IndexOutOfRange`] for a vertex to
 /// compute that is none; [`Error::Cancelled`]; [`Error::OutOfMemory`].
 pub fn vertex_normals(
     topology: &Topology,
@@ -91,7 +93,24 @@ pub fn vertex_normals(
         Weight::InverseRootEdges => with!(InverseRootEdges),
         Weight::Sine => with!(Sine),
         Weight::AngleEdges => with!(AngleEdges),
+        Weight::Jet(options) => jet_normals(topology, points, options, run, outputs),
     }
+}
+
+/// The area-weighted normals of the vertices that `run` asks for, by vertex, and zeros elsewhere: what estimators on
+/// neighbourhoods tell the sides of a surface by.
+///
+/// # Errors
+/// As [`vertex_normals`].
+pub(crate) fn reference_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: Run<'_>,
+) -> Result<Vec<[f64; 3]>, Error> {
+    let mut normals = zeroed(topology.vertex_count())?;
+    let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
+    vertex_normals(topology, points, Weight::Area, run, &outputs)?;
+    Ok(normals)
 }
 
 /// Computes vertex normals once, from faces alone: builds a [`Topology`] for the call and forgets it. The results are those

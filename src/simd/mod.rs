@@ -14,7 +14,7 @@ mod vector;
 mod x86;
 
 pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
-pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3};
+pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3, as_lanes, as_scalars};
 
 /// The instruction sets a call may use, narrowest first.
 ///

@@ -14,10 +14,12 @@
 //! Which way a vertex goes depends on its own ring and nothing else.
 
 mod frames;
+mod patch;
 mod ring;
 mod rows;
 
 pub(crate) use frames::{CANCELLED, area_vector};
+pub(crate) use patch::{MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};
@@ -88,22 +90,28 @@ pub(crate) fn sweep<Q: Quantity>(
     }
 }
 
-/// Refuses positions that are too few, too many or not finite, and vertices that are none. With a list of vertices, only
-/// the positions that it needs may be to blame.
-fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
+/// Refuses positions that are too few or too many, and vertices that are none.
+fn check_counts(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
     let expected = topology.vertex_count() as u64;
     if points.len() as u64 != expected {
         return Err(Error::Size { what: "points.count", found: points.len() as u64, expected });
     }
-    let Some(vertices) = vertices else {
-        return points.check_finite();
-    };
-    for (position, &vertex) in vertices.iter().enumerate() {
+    for (position, &vertex) in vertices.unwrap_or(&[]).iter().enumerate() {
         if vertex as u64 >= expected {
             let (position, index) = (position as u64, vertex as i128);
             return Err(Error::IndexOutOfRange { what: "run.vertices", position, index, vertex_count: expected });
         }
     }
+    Ok(())
+}
+
+/// Refuses positions that are too few, too many or not finite, and vertices that are none. With a list of vertices, only
+/// the positions that it needs may be to blame.
+fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
+    check_counts(topology, points, vertices)?;
+    let Some(vertices) = vertices else {
+        return points.check_finite();
+    };
     // For a long list it is cheaper to look at all positions; only if that finds one is the list gone through, each
     // vertex and each face once.
     let long = corners_met(topology, vertices).is_none();

@@ -12,7 +12,7 @@ pub use stats::TopologyStats;
 
 pub(crate) use closure::closure;
 pub(crate) use flat::NO_FACE;
-pub(crate) use neighbourhood::Neighbourhood;
+pub(crate) use neighbourhood::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
 pub(crate) use polygons::Polygons;
 
 use crate::error::{Error, reserved};

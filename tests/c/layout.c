@@ -37,10 +37,12 @@ OFFSET(umb_fan, corner_count, 16);
 OFFSET(umb_fan, closed, 24);
 OFFSET(umb_fan, reserved, 28);
 
-SIZE(umb_normal_options, 48);
+SIZE(umb_normal_options, 56);
 OFFSET(umb_normal_options, struct_size, 0);
 OFFSET(umb_normal_options, weight, 4);
 OFFSET(umb_normal_options, run, 8);
+OFFSET(umb_normal_options, degree, 48);
+OFFSET(umb_normal_options, rings, 52);
 
 SIZE(umb_normal_outputs, 72);
 OFFSET(umb_normal_outputs, struct_size, 0);

@@ -6,6 +6,7 @@ use super::mesh::Mesh;
 use std::ffi::CStr;
 use umbilic::capi::*;
 
+/// The averages over a one-ring, which an oracle knows.
 pub const WEIGHTS: [umb_weight; 10] = [
     UMB_WEIGHT_CONFORMAL,
     UMB_WEIGHT_UNIFORM,
@@ -18,6 +19,14 @@ pub const WEIGHTS: [umb_weight; 10] = [
     UMB_WEIGHT_SINE,
     UMB_WEIGHT_ANGLE_EDGES,
 ];
+
+/// Everything that a vertex normal may be computed by.
+pub const ALL: [umb_weight; 11] = {
+    let mut all = [UMB_WEIGHT_JET; 11];
+    let (averages, _) = all.split_at_mut(10);
+    averages.copy_from_slice(&WEIGHTS);
+    all
+};
 
 /// An all-zero struct: the defaults.
 pub fn zeroed<T>() -> T {
@@ -103,13 +112,25 @@ pub fn normals<T: Copy + Default>(
     sums: bool,
     set: impl FnOnce(&mut umb_run),
 ) -> Normals<T> {
+    normals_with(handle, positions, sums, |options| {
+        options.weight = weight;
+        set(&mut options.run);
+    })
+}
+
+/// As [`normals`], with any options.
+pub fn normals_with<T: Copy + Default>(
+    handle: &Handle,
+    positions: &[[T; 3]],
+    sums: bool,
+    set: impl FnOnce(&mut umb_normal_options),
+) -> Normals<T> {
     let count = positions.len();
     let mut found =
         Normals { normal: vec![[T::default(); 3]; count], sum: vec![[0.0; 3]; count], status: vec![0; count] };
     let mut options: umb_normal_options = zeroed();
     options.struct_size = size_of::<umb_normal_options>() as u32;
-    options.weight = weight;
-    set(&mut options.run);
+    set(&mut options);
     let mut outputs: umb_normal_outputs = zeroed();
     outputs.struct_size = size_of::<umb_normal_outputs>() as u32;
     outputs.normal = output(&mut found.normal);

@@ -49,7 +49,7 @@ def struct(name, **fields):
 Faces = struct("Faces", indices=pointer, index_count=size, offsets=pointer, face_count=size, index=u32, arity=u32)
 Points = struct("Points", data=pointer, count=size, stride=size, scalar=u32, reserved=u32)
 Run = struct("Run", threads=u32, simd=u32, vertices=pointer, vertex_count=size, progress=pointer, user=pointer)
-Options = struct("Options", struct_size=u32, weight=u32, run=Run)
+Options = struct("Options", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32)
 Output = struct("Output", data=pointer, stride=size, scalar=u32, reserved=u32)
 StatusOutput = struct("StatusOutput", data=pointer, stride=size)
 Outputs = struct("Outputs", struct_size=u32, reserved=u32, normal=Output, sum=Output, status=StatusOutput)

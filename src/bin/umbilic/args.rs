@@ -1,13 +1,41 @@
 //! Values on the command line: weights, sizes, angles, names of output files.
 
 use crate::render::{LARGEST_SIDE, UpAxis};
-use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use umbilic::Weight;
+use umbilic::{JetOptions, Weight};
+
+/// How vertex normals are computed.
+#[derive(Args)]
+pub struct Estimator {
+    /// How the faces around a vertex are weighed.
+    #[arg(long, default_value = Weight::default().name(), value_parser = weight())]
+    weight: Weight,
+    /// With --weight jet, the degree of the polynomial, 1 to 4 [default: 3].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=4))]
+    degree: Option<u8>,
+    /// With --weight jet, the rings of neighbours that it is fitted to, 1 to 8 [default: 1 at degree 1, 2 at degrees 2
+    /// and 3, 3 at degree 4].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
+    rings: Option<u8>,
+}
+
+impl Estimator {
+    /// The weight with its options; refused where it has none.
+    pub fn weight(&self) -> Result<Weight, String> {
+        match self.weight {
+            Weight::Jet(_) => {
+                Ok(Weight::Jet(JetOptions { degree: self.degree.unwrap_or(0), rings: self.rings.unwrap_or(0) }))
+            }
+            weight if self.degree.is_none() && self.rings.is_none() => Ok(weight),
+            weight => Err(format!("--degree and --rings are for --weight jet, not {}", weight.name())),
+        }
+    }
+}
 
 /// A weight by its name.
-pub fn weight() -> impl TypedValueParser<Value = Weight> {
+fn weight() -> impl TypedValueParser<Value = Weight> {
     let names = Weight::ALL.map(|weight| PossibleValue::new(weight.name()).help(describe(weight)));
     PossibleValuesParser::new(names).try_map(|name| Weight::from_name(&name).ok_or("no such weight"))
 }
@@ -24,6 +52,7 @@ fn describe(weight: Weight) -> &'static str {
         Weight::InverseRootEdges => "One over the root of the product of the two edges at the vertex",
         Weight::Sine => "The sine of the angle",
         Weight::AngleEdges => "The angle times the two edges",
+        Weight::Jet(_) => "A polynomial fitted to several rings; best on fine smooth meshes, dear, rounds creases",
         _ => "",
     }
 }

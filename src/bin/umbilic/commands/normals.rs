@@ -10,14 +10,14 @@ use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
-use umbilic::{Weight, status};
+use umbilic::status;
 
 /// Compute vertex normals and write a PLY file with them.
 ///
 /// The file has the positions and faces of the input, the unit normal of each vertex as nx, ny and nz, and its status
 /// as the sum of: 1 boundary, 2 non-manifold, 4 faces that disagree on the orientation, 8 isolated, 16 the weight
-/// left nothing and a simpler one took its place, 32 no normal could be computed. Normals are zero where there is
-/// none.
+/// left nothing and a simpler one took its place, 32 no normal could be computed, 64 the neighbourhood of a jet was
+/// widened. Normals are zero where there is none.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
@@ -29,9 +29,8 @@ pub struct Normals {
     /// The PLY file to write.
     #[arg(short, long, value_name = "OUT.ply", value_parser = args::ply_file)]
     output: PathBuf,
-    /// How the faces around a vertex are weighed.
-    #[arg(long, default_value = Weight::default().name(), value_parser = args::weight())]
-    weight: Weight,
+    #[command(flatten)]
+    estimator: args::Estimator,
     /// Write text instead of binary numbers.
     #[arg(long)]
     ascii: bool,
@@ -44,26 +43,27 @@ pub struct Normals {
 }
 
 /// What is counted of the vertices' statuses: a key, words and the bit.
-const COUNTS: [(&str, &str, u8); 6] = [
+const COUNTS: [(&str, &str, u8); 7] = [
     ("boundary", "boundary vertices", status::BOUNDARY),
     ("non_manifold", "non-manifold vertices", status::NON_MANIFOLD),
     ("winding", "vertices of faces that disagree", status::WINDING),
     ("isolated", "isolated vertices", status::ISOLATED),
     ("fallback", "normals by a simpler weight", status::FALLBACK),
     ("degenerate", "vertices without any normal", status::DEGENERATE),
+    ("widened", "widened neighbourhoods", status::WIDENED),
 ];
 
 impl Normals {
     /// Runs the command.
     pub fn run(&self) -> Outcome {
+        let weight = self.estimator.weight()?;
         let start = Instant::now();
         let mesh = read_mesh(&self.input)?;
         let read = Instant::now();
         let topology = compute::topology(&mesh).map_err(blame(&self.input))?;
         let built = Instant::now();
         let VertexNormals { normals, status } =
-            compute::vertex_normals(&mesh, &topology, self.weight, self.threads.into())
-                .map_err(blame(&self.input))?;
+            compute::vertex_normals(&mesh, &topology, weight, self.threads.into()).map_err(blame(&self.input))?;
         let computed = Instant::now();
         let properties = VertexProperties {
             normals: Some(&normals),
@@ -88,7 +88,7 @@ impl Normals {
             let object = json!({
                 "vertices": mesh.vertex_count(),
                 "faces": mesh.face_count(),
-                "weight": self.weight.name(),
+                "weight": weight.name(),
                 "status": counts,
                 "seconds": seconds,
             });
@@ -97,7 +97,7 @@ impl Normals {
         let mut rows = vec![
             ("vertices", mesh.vertex_count().to_string()),
             ("faces", mesh.face_count().to_string()),
-            ("weight", self.weight.name().to_owned()),
+            ("weight", weight.name().to_owned()),
         ];
         rows.extend(counts.map(|(_, words, count)| (words, count.to_string())));
         rows.push(("time", times.map(|(key, time)| format!("{key} {time:.1?}")).join(", ")));

@@ -7,7 +7,6 @@ use crate::read::read_mesh;
 use crate::render::{Projection, RenderOptions, Surface, UpAxis, render_png};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use umbilic::Weight;
 
 /// Draw a mesh with its vertex normals into a PNG file.
 ///
@@ -24,9 +23,8 @@ pub struct Render {
     /// The PNG file to write.
     #[arg(short, long, value_name = "OUT.png", value_parser = args::png_file)]
     output: PathBuf,
-    /// How the faces around a vertex are weighed in its normal.
-    #[arg(long, default_value = Weight::default().name(), value_parser = args::weight())]
-    weight: Weight,
+    #[command(flatten)]
+    estimator: args::Estimator,
     /// What the surface looks like.
     #[arg(long, value_enum, default_value = "clay")]
     color: Color,
@@ -59,9 +57,10 @@ enum Color {
 impl Render {
     /// Runs the command.
     pub fn run(&self) -> Outcome {
+        let weight = self.estimator.weight()?;
         let mesh = read_mesh(&self.input)?;
         let topology = compute::topology(&mesh).map_err(blame(&self.input))?;
-        let found = compute::vertex_normals(&mesh, &topology, self.weight, 0).map_err(blame(&self.input))?;
+        let found = compute::vertex_normals(&mesh, &topology, weight, 0).map_err(blame(&self.input))?;
         let [width, height] = self.size;
         let options = RenderOptions {
             width,

@@ -1,0 +1,384 @@
+//! Osculating jets: the surface near a vertex as a polynomial height field.
+//!
+//! Reference: Cazals & Pouget 2005, "Estimating differential quantities using polynomial fitting of osculating jets". The
+//! points of the neighbourhood and the vertex itself, all with weight 1, are written as heights `z(x, y)` over the plane of
+//! their principal axes ([`Axes::principal`]), and a polynomial of degree `d` with all its `(d + 1)(d + 2)/2` coefficients is
+//! fitted by least squares. Normal and shape operator are those of the fitted surface at `x = y = 0`, from its full first and
+//! second fundamental forms, so the plane need not be tangent:
+//!
+//! ```text
+//! g = (p, q) = ∇z   w = √(1 + p² + q²)   N = (−p, −q, 1)/w
+//! I = [1 + p², pq; pq, 1 + q²]   II = H/w   with H the Hessian of z
+//! e₁ = Xᵤ/√E   e₂ = (E Xᵥ − F Xᵤ)/(√E w)   S = −[II(e₁,e₁), II(e₁,e₂); II(e₁,e₂), II(e₂,e₂)]
+//! ```
+//!
+//! The sign is such that a sphere with outward normals has positive curvatures. Degree 1 has a normal and no curvature.
+//! The normal's error is of order `d` in the size of the neighbourhood, the curvatures' of order `d − 1` (their Theorem 1).
+//!
+//! Input: neighbourhoods of any kind of mesh; how the points hang together does not matter.
+//! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, and where its normal is more than
+//! 75° from the vertex's: then the neighbourhood is no height field over the plane that was found (it wraps around a thin
+//! tube, or around the whole of a small component). [`JetFit`] says what becomes of these.
+//! Cost: that of [`solve`] for as many unknowns, and two passes over the points.
+
+use super::JetFit;
+use super::axes::Axes;
+use super::least_squares::{condition, solve};
+use crate::simd::{Mask, Vector, Vector3};
+use crate::sweep::Patch;
+use crate::topology::status;
+
+/// The cosine of the largest angle between a jet's normal and the vertex's.
+const AGREES: f64 = 0.25;
+
+/// The surface at a vertex.
+#[derive(Clone, Copy)]
+pub(crate) struct Jet<V: Vector> {
+    /// Unit normal.
+    pub normal: Vector3<V>,
+    /// Unit tangent vectors; right-handed with the normal, and orthonormal.
+    pub x: Vector3<V>,
+    /// See `x`.
+    pub y: Vector3<V>,
+    /// The shape operator `a, b, d` in the axes `x`, `y`: the curvature of a section along `(c, s)` is `a c² + 2 b c s + d s²`.
+    /// In the patch's units.
+    pub shape: [V; 3],
+    /// How far the surface lies above the vertex, along the fit's axis, in the patch's units.
+    pub height: V,
+    /// The root of the mean of the squared height differences, in the patch's units.
+    pub residual: V,
+    /// The condition of the least-squares problem, if it was asked for; else 0.
+    pub condition: V,
+    /// Lanes that can be believed.
+    pub trusted: V::Mask,
+    /// Lanes whose points determine the polynomial, whatever its normal is like.
+    determined: V::Mask,
+}
+
+const NOWHERE: Vector3<f64> = Vector3 { x: 0.0, y: 0.0, z: 0.0 };
+
+/// A vertex of which nothing is known.
+const NO_JET: Jet<f64> = Jet {
+    normal: NOWHERE,
+    x: NOWHERE,
+    y: NOWHERE,
+    shape: [0.0; 3],
+    height: 0.0,
+    residual: 0.0,
+    condition: 0.0,
+    trusted: false,
+    determined: false,
+};
+
+/// The number of coefficients of a polynomial of that degree in two variables.
+pub(super) const fn coefficients(degree: usize) -> usize {
+    (degree + 1) * (degree + 2) / 2
+}
+
+impl JetFit {
+    /// The jets of a row of vertices.
+    #[inline(always)]
+    pub(crate) fn lanes<V: Vector<Scalar = f64>>(&self, patch: &Patch<'_, V>, scratch: &mut [V]) -> Jet<V> {
+        self.fit(self.degree, patch, Axes::principal(patch), scratch)
+    }
+
+    /// The jet of a vertex that [`JetFit::lanes`] did not trust, and the status bits to report with it; none if a wider
+    /// neighbourhood should be tried, which is never so if this is the `last`.
+    ///
+    /// In this order: the jet asked for; with heights along the vertex's normal instead, if its own plane is what is wrong;
+    /// in wider neighbourhoods; of lower degree, in the widest; the vertex's normal, without curvature; nothing.
+    #[inline(never)]
+    pub(crate) fn alone(&self, patch: &Patch<'_, f64>, last: bool, scratch: &mut [f64]) -> Option<(Jet<f64>, u8)> {
+        let has_normal = patch.normal.squared() > 0.0;
+        if !has_normal {
+            return Some((NO_JET, status::DEGENERATE));
+        }
+        for degree in (1..=self.degree).rev() {
+            let fallback = if degree < self.degree { status::FALLBACK } else { 0 };
+            let jet = self.fit(degree, patch, Axes::principal(patch), scratch);
+            if jet.trusted {
+                return Some((jet, fallback));
+            }
+            if jet.determined {
+                let jet = self.fit(degree, patch, Axes::about(patch.normal), scratch);
+                if jet.trusted {
+                    return Some((jet, status::FALLBACK));
+                }
+            }
+            if !last {
+                return None;
+            }
+        }
+        let Axes { x, y, z: normal } = Axes::about(patch.normal);
+        Some((Jet { normal, x, y, ..NO_JET }, status::FALLBACK))
+    }
+
+    #[inline(always)]
+    fn fit<V: Vector<Scalar = f64>>(
+        &self,
+        degree: usize,
+        patch: &Patch<'_, V>,
+        axes: Axes<V>,
+        scratch: &mut [V],
+    ) -> Jet<V> {
+        match degree {
+            1 => fit::<V, 3>(patch, axes, self.condition, scratch),
+            2 => fit::<V, 6>(patch, axes, self.condition, scratch),
+            3 => fit::<V, 10>(patch, axes, self.condition, scratch),
+            _ => fit::<V, 15>(patch, axes, self.condition, scratch),
+        }
+    }
+}
+
+/// Fits the polynomial of `K` coefficients along `axes.z`.
+#[inline(always)]
+fn fit<V: Vector<Scalar = f64>, const K: usize>(
+    patch: &Patch<'_, V>,
+    axes: Axes<V>,
+    wants_condition: bool,
+    scratch: &mut [V],
+) -> Jet<V> {
+    // Rows that are too few are filled up with zeros, as in lanes that have fewer than others.
+    let rows = (patch.len() + 1).max(K);
+    let columns = &mut scratch[..(K + 1) * rows];
+    // The vertex itself.
+    columns[0] = V::one();
+    for column in 1..=K {
+        columns[column * rows] = V::zero();
+    }
+    for row in 1..rows {
+        let (mut weight, mut point) = (V::zero(), Vector3::zero());
+        if row <= patch.len() {
+            weight = if row <= patch.full { V::one() } else { patch.weight(row - 1) };
+            point = axes.components(patch.point(row - 1));
+        }
+        // Monomials of each degree from those of the one below. A point that a lane does not have is at the origin, so its
+        // only monomial that is not zero is the first.
+        let mut monomials = [weight; K];
+        let (mut first, mut length) = (0, 1);
+        let (x, y) = (point.x, point.y);
+        while first + length < K {
+            let next = first + length;
+            for term in 0..length {
+                monomials[next + term] = if first == 0 { x } else { monomials[first + term] * x };
+            }
+            monomials[next + length] = if first == 0 { y } else { monomials[next - 1] * y };
+            (first, length) = (next, length + 1);
+        }
+        for column in 0..K {
+            columns[column * rows + row] = monomials[column];
+        }
+        columns[K * rows + row] = point.z;
+    }
+    let solution = solve::<V, K>(columns, rows);
+    let u = &solution.unknowns;
+    let residual = (solution.residual_squared / (patch.count + V::one())).sqrt();
+    let condition = if wants_condition { condition(columns, rows, &solution) } else { V::zero() };
+
+    let (p, q) = (u[1], u[2]);
+    let e = V::one() + p * p;
+    let inverse_w = V::one() / (e + q * q).sqrt();
+    let inverse_root_e = V::one() / e.sqrt();
+    let normal = axes.vector(-(p * inverse_w), -(q * inverse_w), inverse_w);
+    // Unit to the last place, and not only to that of the axes.
+    let normal = normal * (V::one() / normal.squared().sqrt());
+    let x = axes.vector(inverse_root_e, V::zero(), p * inverse_root_e);
+    let mut shape = [V::zero(); 3];
+    if K > 3 {
+        // e₁ = α Xᵤ and e₂ = β Xᵤ + γ Xᵥ
+        let (alpha, gamma) = (inverse_root_e, e * inverse_root_e * inverse_w);
+        let beta = -(p * q * inverse_root_e * inverse_w);
+        let two = V::constant(2.0);
+        let second = [two * u[3 % K], u[4 % K], two * u[5 % K]];
+        let [xx, xy, yy] = second.map(|derivative| -(derivative * inverse_w));
+        shape = [
+            alpha * alpha * xx,
+            alpha * (beta * xx + gamma * xy),
+            beta * beta * xx + two * beta * gamma * xy + gamma * gamma * yy,
+        ];
+    }
+    // A vertex without a normal has nothing to tell the sides of the surface by.
+    let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
+    let trusted = solution.trusted.and(agrees);
+    Jet {
+        normal,
+        x,
+        y: normal.cross(x),
+        shape,
+        height: u[0],
+        residual,
+        condition,
+        trusted,
+        determined: solution.trusted,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::JetOptions;
+    use super::*;
+
+    fn random(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn jet_fit(degree: u8) -> JetFit {
+        JetFit::new(JetOptions { degree, rings: 2 }, true).unwrap()
+    }
+
+    fn unit(v: Vector3<f64>) -> Vector3<f64> {
+        v * (1.0 / v.squared().sqrt())
+    }
+
+    /// The smaller and the larger principal curvature, and the direction of the larger.
+    fn principal(jet: &Jet<f64>) -> (f64, f64, Vector3<f64>) {
+        let [a, b, d] = jet.shape;
+        let (mean, half) = ((a + d) / 2.0, ((a - d) / 2.0).hypot(b));
+        let angle = 0.5 * (2.0 * b).atan2(a - d);
+        (mean - half, mean + half, jet.x * angle.cos() + jet.y * angle.sin())
+    }
+
+    /// A polynomial of the jet's degree, steep at the vertex, over a plane of any direction: normal, curvatures and principal
+    /// directions are exact. The curvatures are the roots of `det(II − κ I)`.
+    #[test]
+    fn polynomials_of_the_degree_are_reproduced() {
+        let mut next = random(1);
+        for round in 0..2000 {
+            let degree = 1 + round % 4;
+            let axes = Axes::about(unit(Vector3 { x: next(), y: next(), z: next() }));
+            let coefficients: Vec<f64> = (0..super::coefficients(degree)).map(|_| next()).collect();
+            // The vertex is on the surface, or beside it by what the constant says: then so are all points.
+            let height = |x: f64, y: f64| {
+                let mut terms = (0..=degree as i32).flat_map(|t| (0..=t).map(move |j| x.powi(t - j) * y.powi(j)));
+                coefficients.iter().fold(-coefficients[0], |sum, c| sum + c * terms.next().unwrap())
+            };
+            let points: Vec<f64> = (0..super::coefficients(degree) + 6 + round % 20)
+                .flat_map(|_| {
+                    let (x, y) = (next(), next());
+                    let p = axes.vector(x, y, height(x, y));
+                    [p.x, p.y, p.z]
+                })
+                .collect();
+            let patch = Patch::of_points(&points, axes.z);
+            let fit = jet_fit(degree as u8);
+            let mut scratch = vec![0.0; fit.scratch(patch.len())];
+            let jet = fit.fit(degree, &patch, axes, &mut scratch);
+            if jet.condition > 1e4 {
+                continue;
+            }
+            let tolerance = 1e-13 * jet.condition;
+            let (p, q) = (coefficients[1], coefficients[2]);
+            let w = (1.0 + p * p + q * q).sqrt();
+            let normal = axes.vector(-p / w, -q / w, 1.0 / w);
+            assert!((jet.normal - normal).squared().sqrt() < tolerance);
+            assert!(jet.height.abs() < tolerance && jet.residual < tolerance);
+            assert!((jet.x.squared() - 1.0).abs() < 1e-14 && jet.x.dot(jet.normal).abs() < 1e-14);
+            assert!((jet.y.squared() - 1.0).abs() < 1e-14 && jet.x.cross(jet.y).dot(jet.normal) > 0.99999);
+            assert!(jet.determined);
+            assert_eq!(jet.trusted, 1.0 / w > AGREES);
+            if degree == 1 {
+                assert_eq!(jet.shape, [0.0; 3]);
+                continue;
+            }
+            let (e, f, g) = (1.0 + p * p, p * q, 1.0 + q * q);
+            let [l, m, n] = [2.0 * coefficients[3], coefficients[4], 2.0 * coefficients[5]].map(|x| -x / w);
+            let determinant = e * g - f * f;
+            let (mean, gauss) = ((l * g - 2.0 * m * f + n * e) / (2.0 * determinant), (l * n - m * m) / determinant);
+            let half = (mean * mean - gauss).max(0.0).sqrt();
+            let (small, large, direction) = principal(&jet);
+            assert!(
+                (small + large - 2.0 * mean).abs() < tolerance && (small * large - gauss).abs() < 10.0 * tolerance
+            );
+            assert!((large - (mean + half)).abs() < tolerance.sqrt());
+            // The section along the direction of the larger, by the forms in the plane's coordinates.
+            let (u, v) = (axes.x.dot(direction), axes.y.dot(direction));
+            let section = (l * u * u + 2.0 * m * u * v + n * v * v) / (e * u * u + 2.0 * f * u * v + g * v * v);
+            assert!((section - large).abs() < 10.0 * tolerance, "{section} {large}");
+        }
+    }
+
+    /// A sphere with outward normals has positive curvatures, all the same: one over its radius.
+    #[test]
+    fn spheres_curve_the_right_way() {
+        let mut next = random(2);
+        for degree in 2..=4 {
+            for size in [1e-3, 0.05] {
+                let axes = Axes::about(unit(Vector3 { x: next(), y: next(), z: next() }));
+                let points: Vec<f64> = (0..40)
+                    .flat_map(|i| {
+                        let (radius, angle) = (size * (1 + i / 8) as f64 / 5.0, i as f64 * 0.8);
+                        let p =
+                            axes.vector(radius.sin() * angle.cos(), radius.sin() * angle.sin(), radius.cos() - 1.0);
+                        [p.x, p.y, p.z].map(|x| x / size)
+                    })
+                    .collect();
+                let fit = jet_fit(degree);
+                let patch = Patch::of_points(&points, axes.z);
+                let jet = fit.lanes(&patch, &mut vec![0.0; fit.scratch(patch.len())]);
+                assert!(jet.trusted);
+                for (found, expected) in jet.shape.into_iter().zip([1.0, 0.0, 1.0]) {
+                    assert!(
+                        (found / size - expected).abs() < 3.0 * size * size + 1e-9 / size,
+                        "{degree}, {size}: {found}"
+                    );
+                }
+                // Turned inside out, it is a hollow one.
+                let inside = Patch::of_points(&points, axes.z * -1.0);
+                let hollow = fit.lanes(&inside, &mut vec![0.0; fit.scratch(patch.len())]);
+                assert!((hollow.normal + jet.normal).squared().sqrt() < 1e-12);
+                assert!((principal(&hollow).0 + principal(&jet).1).abs() < 1e-9);
+            }
+        }
+    }
+
+    /// What is left where the jet fails, step by step.
+    #[test]
+    fn fallbacks_in_their_order() {
+        let normal = Vector3 { x: 0.0, y: 0.0, z: 1.0 };
+        let fit = jet_fit(2);
+        let alone = |points: &[f64], normal, last| {
+            let patch = Patch::of_points(points, normal);
+            fit.alone(&patch, last, &mut vec![0.0; fit.scratch(patch.len())])
+        };
+        let circle = |count: usize, z: f64| -> Vec<f64> {
+            let angle = |i: usize| std::f64::consts::TAU * i as f64 / count as f64;
+            (0..count).flat_map(|i| [angle(i).cos(), angle(i).sin(), z]).collect()
+        };
+        // Enough points: the jet itself.
+        let full = [circle(6, 0.1), circle(5, 0.025).iter().map(|x| x * 0.5).collect()].concat();
+        let (jet, flags) = alone(&full, normal, false).unwrap();
+        assert_eq!(flags, 0);
+        assert!(jet.shape[0] < 0.0);
+        // Points on a circle, with its centre: four directions only, which leave a quadric open.
+        let four = circle(4, 0.1);
+        assert!(alone(&four, normal, false).is_none());
+        let (jet, flags) = alone(&four, normal, true).unwrap();
+        assert_eq!((flags, jet.shape), (status::FALLBACK, [0.0; 3]));
+        assert!((jet.normal - normal).squared() < 1e-28);
+        // A tube: the direction of least variance is along it, or anywhere across it.
+        let tube: Vec<f64> = (0..24)
+            .filter(|i| *i != 12)
+            .flat_map(|i| {
+                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14);
+                [along, 2.0 * angle.sin(), 2.0 * angle.cos() - 2.0]
+            })
+            .collect();
+        let (jet, flags) = alone(&tube, normal, false).unwrap();
+        assert_eq!(flags, status::FALLBACK);
+        assert!(jet.normal.z > 0.9);
+        // A line, and nothing at all: the normal; and not even that.
+        for points in [vec![1.0, 2.0, 3.0, 2.0, 4.0, 6.0], vec![], vec![f64::NAN; 60]] {
+            assert!(alone(&points, normal, false).is_none());
+            let (jet, flags) = alone(&points, normal, true).unwrap();
+            assert_eq!((flags, jet.shape), (status::FALLBACK, [0.0; 3]));
+            assert_eq!((jet.normal.x, jet.normal.y, jet.normal.z), (0.0, 0.0, 1.0));
+            let (jet, flags) = alone(&points, NOWHERE, false).unwrap();
+            assert_eq!((flags, jet.shape), (status::DEGENERATE, [0.0; 3]));
+            assert_eq!((jet.normal.x, jet.normal.y, jet.normal.z), (0.0, 0.0, 0.0));
+        }
+    }
+}

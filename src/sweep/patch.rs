@@ -1,0 +1,449 @@
+//! The loop over vertices for estimators on neighbourhoods of several rings.
+//!
+//! Lanes are vertices, as in the sweep over one-rings, and always `f64`. Vertices are gathered in groups of [`GROUP`] and
+//! sorted by the size of their neighbourhoods, so that the lanes of a block are nearly of one length. A lane with fewer
+//! points than the others is filled up with points at the vertex itself that count with weight 0: they add exact zeros to
+//! every sum, so a result does not depend on which vertices share a block.
+//!
+//! Points are differences from the vertex, multiplied by a power of two a lane that brings the largest component to between
+//! 1 and 4, as in [`Ring`](super::Ring).
+//!
+//! A neighbourhood of fewer vertices than the estimator wants is widened ring by ring. A vertex that an estimator does not
+//! trust in lanes goes on alone, through the same formulas with one lane, with ever wider neighbourhoods. Widening ends after
+//! [`MOST_EXTRA_RINGS`] rings, at the bounds of [`Neighbourhood`], and where nothing is left to add.
+
+use super::check_counts;
+use crate::error::Error;
+use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
+use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, as_scalars, dispatch};
+use crate::topology::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood, Topology};
+use crate::view::{Coordinate, PointArray, Points, StridedPoints, zeroed};
+use std::sync::{Mutex, PoisonError};
+
+/// Vertices that are gathered and sorted together; also a chunk of work.
+const GROUP: usize = 256;
+
+/// A neighbourhood is widened by no more rings than this.
+pub(crate) const MOST_EXTRA_RINGS: usize = 4;
+
+/// An estimator may ask for no more rings than this.
+pub(crate) const MOST_RINGS: usize = MAX_RINGS - MOST_EXTRA_RINGS;
+
+/// The most lanes of `f64`.
+const DOUBLE_LANES: usize = 8;
+
+/// An estimator on neighbourhoods, and where its results go.
+pub(crate) trait PatchQuantity: Sync {
+    /// Whether it asks for [`Patch::neighbour_normal`].
+    const NEIGHBOUR_NORMALS: bool = false;
+
+    /// How many rings it wants, at most [`MOST_RINGS`].
+    fn rings(&self) -> usize;
+
+    /// The fewest neighbours it can work with: a smaller neighbourhood is widened.
+    fn least(&self) -> usize;
+
+    /// How many rows of numbers it wants as scratch for a patch of `points` points; this must not fall where `points` grows.
+    fn scratch(&self, points: usize) -> usize;
+
+    /// Normals by vertex; of the vertices that are computed, and of their neighbours if it asks for those.
+    fn normals(&self) -> &[[f64; 3]];
+
+    /// Computes and writes the vertices of a block; answers with a bit for each lane that it did not write, because its
+    /// result cannot be trusted.
+    ///
+    /// `scale` is how many of the patch's units a unit of the mesh is, and `widened` has a bit for each lane with more rings
+    /// than were asked for. Lanes beyond `vertices` hold no points.
+    fn block<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        patch: &Patch<'_, V>,
+        scale: V,
+        widened: u32,
+        scratch: &mut [V],
+    ) -> u32;
+
+    /// Computes one vertex and writes it if the result can be trusted; if not, answers with `false`, and is called again with
+    /// a wider neighbourhood. `last` says that there is none: then it must write something.
+    fn alone(
+        &self,
+        vertex: usize,
+        patch: &Patch<'_, f64>,
+        scale: f64,
+        widened: bool,
+        last: bool,
+        scratch: &mut [f64],
+    ) -> bool;
+
+    /// Writes a vertex that has no face.
+    fn isolated(&self, vertex: usize);
+}
+
+/// The neighbourhoods of a row of vertices: what an estimator sees.
+pub(crate) struct Patch<'a, V> {
+    /// Three numbers a point.
+    points: &'a [V],
+    /// Likewise, if they were asked for.
+    normals: &'a [V],
+    /// The normal at the vertex itself; zero where there is none.
+    pub normal: Vector3<V>,
+    /// How many points each lane has.
+    pub count: V,
+    /// Every lane has at least so many points.
+    pub full: usize,
+}
+
+impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
+    /// A patch of one vertex, or of as many with the same number of points.
+    #[cfg(test)]
+    pub(crate) fn of_points(points: &'a [V], normal: Vector3<V>) -> Self {
+        let count = points.len() / 3;
+        Patch { points, normals: &[], normal, count: V::constant(count as f64), full: count }
+    }
+
+    /// The largest number of points of a lane; the vertex itself, which is at the origin, is not among them.
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.points.len() / 3
+    }
+
+    /// A point, relative to the vertex; at the vertex in lanes that have fewer.
+    #[inline(always)]
+    pub fn point(&self, index: usize) -> Vector3<V> {
+        row(self.points, index)
+    }
+
+    /// The normal at a point, as it was handed in; zero in lanes that have fewer points.
+    #[inline(always)]
+    pub fn neighbour_normal(&self, index: usize) -> Vector3<V> {
+        row(self.normals, index)
+    }
+
+    /// 1 in the lanes that have the point, 0 in the others.
+    #[inline(always)]
+    pub fn weight(&self, index: usize) -> V {
+        V::select(V::constant(index as f64).lt(self.count), V::one(), V::zero())
+    }
+}
+
+#[inline(always)]
+fn row<V: Vector>(rows: &[V], index: usize) -> Vector3<V> {
+    let [x, y, z] = rows[3 * index..3 * index + 3] else { unreachable!("three numbers a point") };
+    Vector3 { x, y, z }
+}
+
+/// Computes `quantity` at every vertex that `run` asks for.
+///
+/// # Errors
+/// [`Error::Size`] and [`Error::IndexOutOfRange`] as in [`sweep`](super::sweep); [`Error::NonFinitePosition`], with a list of
+/// vertices only for positions in the neighbourhoods of these; [`Error::Cancelled`]; [`Error::OutOfMemory`].
+pub(crate) fn sweep_patches<Q: PatchQuantity>(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    quantity: &Q,
+) -> Result<(), Error> {
+    check_points(topology, points, run.vertices, quantity.rings())?;
+    match points.array() {
+        PointArray::F32(points) => sweep_points(topology, points, run, quantity),
+        PointArray::F64(points) => sweep_points(topology, points, run, quantity),
+    }
+}
+
+/// As the function of this name beside it, for neighbourhoods.
+fn check_points(
+    topology: &Topology,
+    points: &Points<'_>,
+    vertices: Option<&[u32]>,
+    rings: usize,
+) -> Result<(), Error> {
+    check_counts(topology, points, vertices)?;
+    let Some(vertices) = vertices else {
+        return points.check_finite();
+    };
+    // For a long list it is cheaper to look at all positions; only if that finds one is the list gone through.
+    if vertices.len() > topology.vertex_count() / 64 && points.check_finite().is_ok() {
+        return Ok(());
+    }
+    let mut neighbourhood = Neighbourhood::new();
+    for &vertex in vertices {
+        for &needed in [vertex].iter().chain(neighbourhood.gather(topology, vertex, rings)) {
+            if !points.get(needed as usize).is_finite() {
+                return Err(Error::NonFinitePosition { vertex: needed as u64 });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn sweep_points<Q: PatchQuantity, S: Coordinate>(
+    topology: &Topology,
+    points: &StridedPoints<'_, S>,
+    run: &mut Run<'_>,
+    quantity: &Q,
+) -> Result<(), Error> {
+    assert!(quantity.rings() <= MOST_RINGS && quantity.normals().len() == topology.vertex_count());
+    let (vertices, level) = (run.vertices, run.level);
+    let chunks = vertices.map_or(topology.vertex_count(), <[u32]>::len).div_ceil(GROUP);
+    // All memory is there before the first result is written. What is not used of it is never touched.
+    let mut spaces = Vec::new();
+    for _ in 0..thread_count(run.threads, chunks) {
+        spaces.try_reserve(1)?;
+        spaces.push(Space::new(quantity)?);
+    }
+    let spaces = Mutex::new(spaces);
+    let sweep = PatchSweep { topology, points, vertices, quantity };
+    for_each_chunk(run, chunks, |claims| {
+        // If there is none left, there are as many threads as were counted on without this one.
+        let space = spaces.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        if let Some(space) = space {
+            dispatch(level, Worker { sweep: &sweep, claims, space });
+        }
+    })
+}
+
+/// One thread's memory.
+struct Space {
+    /// Points, normals and scratch of a block.
+    numbers: Vec<f64>,
+    /// The neighbourhoods of a group.
+    neighbours: Vec<u32>,
+}
+
+impl Space {
+    fn new<Q: PatchQuantity>(quantity: &Q) -> Result<Self, Error> {
+        let coordinates = if Q::NEIGHBOUR_NORMALS { 6 } else { 3 };
+        // One row more, since the first may not start where a vector can.
+        let rows = coordinates * MAX_NEIGHBOURS + quantity.scratch(MAX_NEIGHBOURS) + 1;
+        Ok(Space { numbers: zeroed(rows * DOUBLE_LANES)?, neighbours: zeroed(GROUP * MAX_NEIGHBOURS)? })
+    }
+}
+
+struct PatchSweep<'a, Q, S> {
+    topology: &'a Topology,
+    points: &'a StridedPoints<'a, S>,
+    vertices: Option<&'a [u32]>,
+    quantity: &'a Q,
+}
+
+/// One thread's part of a sweep.
+struct Worker<'a, 'c, 'p, 's, Q, S> {
+    sweep: &'a PatchSweep<'a, Q, S>,
+    claims: &'c mut Claims<'s, 'p>,
+    space: Space,
+}
+
+/// A vertex of a group, and where its neighbourhood stands.
+#[derive(Clone, Copy)]
+struct Member {
+    vertex: u32,
+    start: u32,
+    count: u32,
+    widened: bool,
+}
+
+impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        let Worker { sweep, claims, mut space } = self;
+        let mut neighbourhood = Neighbourhood::new();
+        let mut group = [Member { vertex: 0, start: 0, count: 0, widened: false }; GROUP];
+        while let Some(chunk) = claims.next() {
+            let first = chunk * GROUP;
+            let length =
+                sweep.vertices.map_or(sweep.topology.vertex_count(), <[u32]>::len).min(first + GROUP) - first;
+            let mut count = 0;
+            let mut end = 0;
+            for index in first..first + length {
+                let vertex = sweep.vertices.map_or(index as u32, |vertices| vertices[index]);
+                if sweep.topology.ring(vertex as usize).is_empty() {
+                    sweep.quantity.isolated(vertex as usize);
+                    continue;
+                }
+                let widened = sweep.gather(vertex, &mut neighbourhood);
+                let found = neighbourhood.vertices();
+                space.neighbours[end..end + found.len()].copy_from_slice(found);
+                group[count] = Member { vertex, start: end as u32, count: found.len() as u32, widened };
+                (count, end) = (count + 1, end + found.len());
+            }
+            let sorted = by_count(&group[..count]);
+            for block in sorted[..count].chunks(W::Double::LANES) {
+                let bits = sweep.block::<W::Double>(&group, block, &mut space);
+                if bits != 0 {
+                    for (lane, &member) in block.iter().enumerate() {
+                        if bits & 1 << lane != 0 {
+                            sweep.alone(group[member as usize].vertex, &mut neighbourhood, &mut space.numbers);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The places of a group's members, those with fewer neighbours first.
+#[inline(always)]
+fn by_count(group: &[Member]) -> [u8; GROUP] {
+    let mut starts = [0u16; MAX_NEIGHBOURS + 1];
+    for member in group {
+        starts[member.count as usize] += 1;
+    }
+    let mut place = 0;
+    for start in &mut starts {
+        place += std::mem::replace(start, place);
+    }
+    let mut sorted = [0u8; GROUP];
+    for (index, member) in group.iter().enumerate() {
+        let start = &mut starts[member.count as usize];
+        sorted[*start as usize] = index as u8;
+        *start += 1;
+    }
+    sorted
+}
+
+impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
+    /// Gathers a vertex's neighbourhood, widened if it is too small; answers whether it was.
+    #[inline(always)]
+    fn gather(&self, vertex: u32, neighbourhood: &mut Neighbourhood) -> bool {
+        let least = self.quantity.least();
+        let mut widened = false;
+        if neighbourhood.gather(self.topology, vertex, self.quantity.rings()).len() < least {
+            while neighbourhood.vertices().len() < least && self.widen(neighbourhood) {
+                widened = true;
+            }
+        }
+        widened
+    }
+
+    /// Adds a ring, if that may be and adds a vertex. Positions beyond the neighbourhood that was asked for may be none
+    /// where only some vertices are computed; they add nothing.
+    #[inline(never)]
+    fn widen(&self, neighbourhood: &mut Neighbourhood) -> bool {
+        if neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS || !neighbourhood.widen(self.topology) {
+            return false;
+        }
+        let finite = |&vertex: &u32| self.points.get(vertex as usize).is_finite();
+        if self.vertices.is_some() && !neighbourhood.ring(neighbourhood.rings()).iter().all(finite) {
+            neighbourhood.drop_ring();
+            return false;
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn block<V: Vector<Scalar = f64>>(&self, group: &[Member; GROUP], block: &[u8], space: &mut Space) -> u32 {
+        let member = |lane: usize| &group[block[lane] as usize];
+        // Sorted by count.
+        let (full, length) = (member(0).count as usize, member(block.len() - 1).count as usize);
+        let (points, rest) = as_lanes::<V>(&mut space.numbers).split_at_mut(3 * length);
+        let (normals, scratch) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * length } else { 0 });
+        let mut vertices = [0u32; MAX_LANES];
+        let mut counts = [0.0; MAX_LANES];
+        let mut own = [[0.0; MAX_LANES]; 3];
+        let mut widened = 0;
+        for lane in 0..V::LANES {
+            let (vertex, found): (u32, &[u32]) = if lane < block.len() {
+                let &Member { vertex, start, count, widened: wide } = member(lane);
+                widened |= (wide as u32) << lane;
+                counts[lane] = count as f64;
+                for (axis, x) in self.quantity.normals()[vertex as usize].into_iter().enumerate() {
+                    own[axis][lane] = x;
+                }
+                (vertex, &space.neighbours[start as usize..][..count as usize])
+            } else {
+                (member(0).vertex, &[])
+            };
+            vertices[lane] = vertex;
+            self.load_points::<V>(vertex, found, 1.0, lane, as_scalars(points));
+            if Q::NEIGHBOUR_NORMALS {
+                self.load_normals::<V>(found, lane, as_scalars(normals));
+            }
+        }
+        let scale = fit_to_unit(points);
+        let normal = Vector3::from_lanes(&own);
+        let patch = Patch { points, normals, normal, count: V::from_lanes(&counts), full };
+        self.quantity.block(&vertices[..block.len()], &patch, scale, widened, scratch)
+    }
+
+    /// The vertex-by-vertex path.
+    #[inline(never)]
+    fn alone(&self, vertex: u32, neighbourhood: &mut Neighbourhood, numbers: &mut [f64]) {
+        let mut widened = self.gather(vertex, neighbourhood);
+        loop {
+            let last =
+                neighbourhood.is_complete() || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
+            if self.alone_in(vertex, neighbourhood.vertices(), widened, last, numbers) || last {
+                return;
+            }
+            // If nothing was added, the neighbourhood is complete and the next attempt the last.
+            widened |= self.widen(neighbourhood);
+        }
+    }
+
+    fn alone_in(&self, vertex: u32, found: &[u32], widened: bool, last: bool, numbers: &mut [f64]) -> bool {
+        let (points, rest) = numbers.split_at_mut(3 * found.len());
+        let (normals, scratch) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * found.len() } else { 0 });
+        // Positions so far apart that their difference overflows are brought closer first; the factor is exact for them.
+        let mut factor = 1.0;
+        self.load_points::<f64>(vertex, found, factor, 0, points);
+        if points.iter().any(|x| x.abs() == f64::INFINITY) {
+            factor = 0.25;
+            self.load_points::<f64>(vertex, found, factor, 0, points);
+        }
+        if Q::NEIGHBOUR_NORMALS {
+            self.load_normals::<f64>(found, 0, normals);
+        }
+        let scale = fit_to_unit(points);
+        let [x, y, z] = self.quantity.normals()[vertex as usize];
+        let count = found.len();
+        let patch = Patch { points, normals, normal: Vector3 { x, y, z }, count: count as f64, full: count };
+        self.quantity.alone(vertex as usize, &patch, scale * factor, widened, last, scratch)
+    }
+
+    /// Fills a lane of `points` with the vectors from a vertex to `found`, each position multiplied by `factor` first, and
+    /// with zeros after them.
+    #[inline(always)]
+    fn load_points<V: Vector<Scalar = f64>>(
+        &self,
+        vertex: u32,
+        found: &[u32],
+        factor: f64,
+        lane: usize,
+        points: &mut [f64],
+    ) {
+        let centre = self.points.get(vertex as usize) * factor;
+        let mut rows = points.chunks_exact_mut(3 * V::LANES);
+        for (row, &neighbour) in rows.by_ref().zip(found) {
+            let edge = self.points.get(neighbour as usize) * factor - centre;
+            (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = (edge.x, edge.y, edge.z);
+        }
+        clear_lane::<V>(points, lane, found.len());
+    }
+
+    /// As [`PatchSweep::load_points`], with normals.
+    #[inline(always)]
+    fn load_normals<V: Vector<Scalar = f64>>(&self, found: &[u32], lane: usize, normals: &mut [f64]) {
+        let all = self.quantity.normals();
+        for (row, &neighbour) in normals.chunks_exact_mut(3 * V::LANES).zip(found) {
+            (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = all[neighbour as usize].into();
+        }
+        clear_lane::<V>(normals, lane, found.len());
+    }
+}
+
+/// Sets a lane's points from `first` on to zero.
+#[inline(always)]
+fn clear_lane<V: Vector>(points: &mut [f64], lane: usize, first: usize) {
+    for row in points.chunks_exact_mut(3 * V::LANES).skip(first) {
+        (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = (0.0, 0.0, 0.0);
+    }
+}
+
+/// Multiplies each lane by the power of two that brings its largest component to between 1 and 4; answers with it.
+#[inline(always)]
+fn fit_to_unit<V: Vector<Scalar = f64>>(points: &mut [V]) -> V {
+    let extent = points.iter().fold(V::zero(), |extent, x| x.abs().max(extent));
+    let scale = extent.unit_scale();
+    points.iter_mut().for_each(|x| *x = *x * scale);
+    scale
+}
