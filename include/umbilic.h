@@ -1,5 +1,5 @@
 /*
- * umbilic: vertex normals of polygon meshes, on the caller's own memory.
+ * umbilic: vertex normals of polygon meshes and curvatures of polylines, on the caller's own memory.
  *
  * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals are then computed from positions as
  * often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
@@ -55,6 +55,8 @@
 #define UMB_NORMAL_OUTPUTS_INIT UMB_INIT_(umb_normal_outputs)
 #define UMB_FACE_OPTIONS_INIT UMB_INIT_(umb_face_options)
 #define UMB_FACE_OUTPUTS_INIT UMB_INIT_(umb_face_outputs)
+#define UMB_POLYLINE_OPTIONS_INIT UMB_INIT_(umb_polyline_options)
+#define UMB_POLYLINE_OUTPUTS_INIT UMB_INIT_(umb_polyline_outputs)
 
 /**
  * `umb_error.element` where no element is to blame.
@@ -93,9 +95,20 @@
 #define UMB_VERTEX_DEGENERATE 32
 
 /**
- * The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
+ * Bit of a polyline's status: an end of an open polyline; its curvatures are 0.
  */
-#define UMB_VERTEX_WIDENED 64
+#define UMB_POLYLINE_END 1
+
+/**
+ * Bit of a polyline's status: a cusp, the next point lies exactly on the side of the previous one.
+ */
+#define UMB_POLYLINE_CUSP 2
+
+/**
+ * Bit of a polyline's status: the point next to the vertex, before or after it, coincides with it. The nearest one
+ * along the polyline that does not took its place; if there is none, the curvatures are 0.
+ */
+#define UMB_POLYLINE_COINCIDENT 4
 
 /**
  * The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
@@ -331,7 +344,7 @@ typedef struct umb_points {
 } umb_points;
 
 /**
- * How a vertex normal weighs the faces around the vertex, or what it fits: a `UMB_WEIGHT_` constant.
+ * How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
  *
  * N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
  * polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
@@ -400,24 +413,14 @@ typedef struct umb_normal_options {
    * How to run.
    */
   struct umb_run run;
-  /**
-   * `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
-   */
-  uint32_t degree;
-  /**
-   * `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
-   * degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
-   * than 255 vertices are used. Other weights do not look at it.
-   */
-  uint32_t rings;
 } umb_normal_options;
 
 /**
  * An array to write, in the caller's memory: of vectors, `#V x 3`, or of single scalars, `#V`, as the field that holds it
  * says. Null `data`: not wanted.
  *
- * It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
- * be interleaved with the positions. Its elements must not overlap those of any other array of the call.
+ * It has an element for every vertex (or face) of the mesh or polyline. The bytes between elements are left alone, so an
+ * output may be interleaved with the positions. Its elements must not overlap those of any other array of the call.
  */
 typedef struct umb_output {
   /**
@@ -439,7 +442,7 @@ typedef struct umb_output {
 } umb_output;
 
 /**
- * An array of bytes to write, in the caller's memory: `UMB_VERTEX_` bits. Null `data`: not wanted.
+ * An array of bytes to write, in the caller's memory: `UMB_VERTEX_` or `UMB_POLYLINE_` bits. Null `data`: not wanted.
  */
 typedef struct umb_status_output {
   /**
@@ -472,7 +475,7 @@ typedef struct umb_normal_outputs {
    * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
    * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
    * status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-   * stands. For jets, which sum nothing, it is the unit normal itself.
+   * stands.
    */
   struct umb_output sum;
   /**
@@ -526,6 +529,101 @@ typedef struct umb_face_outputs {
 } umb_face_outputs;
 
 /**
+ * A polyline, `#V x 2` or `#V x 3`, borrowed for the call. It joins each point to the next.
+ *
+ * The coordinates of a point lie next to each other; points lie `stride` bytes apart.
+ */
+typedef struct umb_polyline {
+  /**
+   * The first coordinate of the first point, aligned to its scalar; may be null if there is no point.
+   */
+  const void *data;
+  /**
+   * The number of points, which may be 0.
+   */
+  size_t count;
+  /**
+   * Bytes from one point to the next, a multiple of the scalar's size; 0 if packed.
+   */
+  size_t stride;
+  /**
+   * The scalar type.
+   */
+  umb_scalar scalar;
+  /**
+   * The number of coordinates, 2 or 3; 0 means 3.
+   */
+  uint32_t dimension;
+  /**
+   * 1 if the last point is joined to the first, 0 if not. The first point need not be repeated at the end; if it is,
+   * no harm is done.
+   */
+  uint32_t closed;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_polyline;
+
+/**
+ * How the curvatures of a polyline are computed. All zero: the defaults.
+ */
+typedef struct umb_polyline_options {
+  /**
+   * `sizeof(umb_polyline_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_polyline_options;
+
+/**
+ * Where the curvatures of a polyline go, each `#V`, in 1/length; any of them may be left out.
+ *
+ * a and c are the edges from a vertex to the points before and after it, phi is the angle between them, d = |c - a| the
+ * distance of these points from each other.
+ */
+typedef struct umb_polyline_outputs {
+  /**
+   * `sizeof(umb_polyline_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * kappa_C, of the circle through the three points: 2 sin(phi) / d. At most 2 / max(|a|, |c|), however sharp the
+   * corner. Exactly 1/r, to rounding, wherever three points lie on a circle of radius r.
+   */
+  struct umb_output circle;
+  /**
+   * kappa_P, of the parabola that passes the three points at the parameters 0, 1/2 and 1: 8 |a| |c| sin(phi) / d^3.
+   */
+  struct umb_output parabola;
+  /**
+   * kappa_P with the parameter in proportion to lengths, the vertex at |a| / (|a| + |c|):
+   * 2 (|a| + |c|)^2 sin(phi) / d^3.
+   */
+  struct umb_output length_parabola;
+  /**
+   * kappa_SP, of a parabola symmetric about the corner's bisector: 4 cos(phi/2) / ((|a| + |c|) sin(phi/2)^2). Grows
+   * without bound as the corner sharpens.
+   */
+  struct umb_output symmetric_parabola;
+  /**
+   * `UMB_POLYLINE_` bits.
+   */
+  struct umb_status_output status;
+} umb_polyline_outputs;
+
+/**
  * Success.
  */
 #define UMB_OK 0
@@ -576,7 +674,7 @@ typedef struct umb_face_outputs {
 #define UMB_ERROR_INDEX_OUT_OF_RANGE 9
 
 /**
- * A coordinate, or a normal given, is NaN or infinite.
+ * A coordinate is NaN or infinite.
  */
 #define UMB_ERROR_NON_FINITE 10
 
@@ -584,16 +682,6 @@ typedef struct umb_face_outputs {
  * More vertices, faces or corners than 32-bit tables can hold.
  */
 #define UMB_ERROR_TOO_LARGE 11
-
-/**
- * An output is asked for, or an option set, that the method does not have.
- */
-#define UMB_ERROR_NOT_APPLICABLE 12
-
-/**
- * An option is outside its range.
- */
-#define UMB_ERROR_OPTION_OUT_OF_RANGE 13
 
 /**
  * No memory for a buffer.
@@ -713,14 +801,6 @@ typedef struct umb_face_outputs {
  * theta_i a b
  */
 #define UMB_WEIGHT_ANGLE_EDGES 9
-
-/**
- * No average, but the normal of an osculating jet (Cazals and Pouget 2005): a polynomial height field, fitted by least
- * squares to the vertices within several rings, over their plane of least squares. See `degree` and `rings` of
- * `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
- * creases it rounds what the averages keep. The area-weighted normal says to which side it points.
- */
-#define UMB_WEIGHT_JET 10
 
 #ifdef __cplusplus
 extern "C" {
@@ -870,7 +950,7 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
                             struct umb_error *error);
 
 /**
- * Computes vertex normals over the one-rings of a topology, or, for jets, over several rings.
+ * Computes vertex normals over the one-rings of a topology.
  *
  * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
  * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
@@ -879,15 +959,9 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
- * Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
- * widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
- * degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
- * degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
- * (`UMB_VERTEX_FALLBACK`).
- *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
  * the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
- * triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+ * triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
  * bits for any number of threads, any vectors and any choice of vertices.
  *
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
@@ -954,6 +1028,44 @@ umb_status umb_face_normals(const struct umb_faces *faces,
                             const struct umb_face_options *options,
                             const struct umb_face_outputs *outputs,
                             struct umb_error *error);
+
+/**
+ * Computes the curvatures at the vertices of a polyline, each from the vertex and its two neighbours.
+ *
+ * Pointwise, in 1/length. In the plane, positive where the polyline turns left, so all along a convex polygon that
+ * runs counter-clockwise; in space, at least 0. Where the three points lie on a line in this order, exactly 0. If
+ * |a| = |c|, the three parabolas agree. As the points of a smooth curve get closer, kappa_C, kappa_PL and kappa_SP tend
+ * to its curvature, but kappa_P to 4 |a| |c| / (|a| + |c|)^2 times that, so only on evenly spaced points to the
+ * same. Reversing a polyline in the plane changes the sign (but not of 0, nor at a cusp), and no other bit.
+ *
+ * The ends of an open polyline have curvature 0 (`UMB_POLYLINE_END`). At a cusp (`UMB_POLYLINE_CUSP`) kappa_SP is
+ * infinite, and the largest value of the output's scalar is written, positive; the others are 0, as the formulas say,
+ * unless both neighbours are one point, as in a closed polyline of two points: then kappa_P and kappa_PL are infinite
+ * as well, and kappa_C is 2 / |a|. Points that repeat their neighbour are passed over (`UMB_POLYLINE_COINCIDENT`): all
+ * points of such a run get the curvature of the corner that they stand for. What is beyond the scalar's range is
+ * written as its largest value. For finite input nothing is ever NaN or infinite.
+ *
+ * Double precision, edges scaled by powers of two: neither the size of a polyline nor the ratio of its edges costs
+ * accuracy. The results are the same bits for any number of threads and any vectors.
+ *
+ * Threads: any number of calls at once. Cost: linear in the number of points.
+ *
+ * @param polyline the points; read only during the call
+ * @param options may be null
+ * @param outputs where results go; each has an element for every point. Written only if the call succeeds, or, after a
+ * cancel, in part
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT` (scalars, `dimension`,
+ * `closed`), `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_NON_FINITE` (element: point), `_OUT_OF_MEMORY`, `_CANCELLED`.
+ * @since 0.2.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_polyline_curvatures(const struct umb_polyline *polyline,
+                                   const struct umb_polyline_options *options,
+                                   const struct umb_polyline_outputs *outputs,
+                                   struct umb_error *error);
 
 /**
  * The version of the library, `"0.1.0"`. Static.

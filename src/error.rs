@@ -88,6 +88,11 @@ pub enum Error {
         /// The vertex.
         vertex: u64,
     },
+    /// A given direction that is NaN or infinite.
+    NonFiniteDirection {
+        /// Its index.
+        index: u64,
+    },
     /// An output or an option that the method asked for does not have.
     NotApplicable {
         /// The output or option.
@@ -123,6 +128,7 @@ impl Error {
             Error::IndexOutOfRange { position, .. } => Some(position),
             Error::NoSuchElement { index, .. } => Some(index),
             Error::NonFinitePosition { vertex } | Error::NonFiniteNormal { vertex } => Some(vertex),
+            Error::NonFiniteDirection { index } => Some(index),
             _ => None,
         }
     }
@@ -161,6 +167,7 @@ impl fmt::Display for Error {
             }
             Error::NonFinitePosition { vertex } => write!(out, "the position of vertex {vertex} is not finite"),
             Error::NonFiniteNormal { vertex } => write!(out, "the normal given for vertex {vertex} is not finite"),
+            Error::NonFiniteDirection { index } => write!(out, "direction {index} is not finite"),
             Error::NotApplicable { what } => write!(out, "{what} is nothing that the method has"),
             Error::OptionOutOfRange { what } => write!(out, "{what} is outside its range"),
             Error::TooLarge { what, found, limit } => write!(out, "{found} {what}: the limit is {limit}"),

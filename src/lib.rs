@@ -1,4 +1,4 @@
-//! Vertex normals of polygon meshes, on the caller's own memory.
+//! Vertex normals of polygon meshes and curvatures of polylines, on the caller's own memory.
 //!
 //! ```
 //! use umbilic::{Faces, NormalOutputs, Points, Run, Topology, Weight, vertex_normals};
@@ -15,7 +15,8 @@
 //! ```
 //!
 //! The [C interface](capi) is the same library behind `include/umbilic.h`. `ARCHITECTURE.md` tells how the parts hang
-//! together: imports run downwards only, `capi → normals → fit → sweep → topology → view, simd, parallel → error`.
+//! together: imports run downwards only,
+//! `capi → curvature → normals → fit → sweep → topology → view, simd, parallel → error`.
 
 #![deny(missing_docs)]
 
@@ -30,11 +31,14 @@ mod sweep;
 mod topology;
 mod view;
 
-pub use curvature::{CurvatureOptions, CurvatureOutputs, Method, Section, VertexNormals, curvatures};
+pub use curvature::{
+    CurvatureOptions, CurvatureOutputs, Directions, Method, PolylineOutputs, Section, SectionOutputs, VertexNormals,
+    curvatures, direction_sections, edge_sections, polyline_curvatures, polyline_status, section_status,
+};
 pub use error::Error;
 pub use fit::JetOptions;
 pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 pub use parallel::Run;
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};
-pub use view::{Faces, IndexArray, Indices, Output, Points, ScalarOutput, StatusOutput};
+pub use view::{Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, StatusOutput};

@@ -25,6 +25,9 @@ fn layouts() {
     layout!(umb_normal_outputs: 72, struct_size 0, reserved 4, normal 8, sum 32, status 56);
     layout!(umb_output: 24, data 0, stride 8, scalar 16, reserved 20);
     layout!(umb_points: 32, data 0, count 8, stride 16, scalar 24, reserved 28);
+    layout!(umb_polyline: 40, data 0, count 8, stride 16, scalar 24, dimension 28, closed 32, reserved 36);
+    layout!(umb_polyline_options: 48, struct_size 0, reserved 4, run 8);
+    layout!(umb_polyline_outputs: 120, struct_size 0, reserved 4, circle 8, parabola 32, length_parabola 56, symmetric_parabola 80, status 104);
     layout!(umb_run: 40, threads 0, simd 4, vertices 8, vertex_count 16, progress 24, user 32);
     layout!(umb_status_output: 16, data 0, stride 8);
     layout!(umb_topology_options: 8, struct_size 0, reserved 4);

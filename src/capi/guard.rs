@@ -92,6 +92,18 @@ pub(super) unsafe fn read_versioned<T: Versioned>(pointer: *const T) -> Result<T
     Ok(value)
 }
 
+/// A versioned struct that may not be null.
+///
+/// # Safety
+/// As [`read_versioned`].
+pub(super) unsafe fn required<T: Versioned>(pointer: *const T, what: &'static str) -> Result<T, Error> {
+    if pointer.is_null() {
+        return Err(Error::NullPointer { what });
+    }
+    // SAFETY: handed on.
+    unsafe { read_versioned(pointer) }
+}
+
 /// Refuses a reserved field that is not zero.
 pub(super) fn check_reserved(what: &'static str, offset: usize, value: u32) -> Result<(), Error> {
     if value == 0 { Ok(()) } else { Err(Error::UnknownField { what, byte: offset }) }

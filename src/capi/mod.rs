@@ -12,12 +12,14 @@
 
 mod guard;
 mod normals;
+mod polyline;
 mod status;
 mod topology;
 mod types;
 mod version;
 
 pub use normals::*;
+pub use polyline::*;
 pub use status::*;
 pub use topology::*;
 pub use types::*;

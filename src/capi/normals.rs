@@ -1,6 +1,6 @@
 //! Vertex and face normals.
 
-use super::guard::{check_reserved, guard, read_required, read_versioned};
+use super::guard::{check_reserved, guard, read_required, read_versioned, required};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
@@ -261,18 +261,6 @@ unsafe fn vertex_outputs<'a>(
             status: outputs.status.view(vertex_count)?,
         })
     }
-}
-
-/// A versioned struct that may not be null.
-///
-/// # Safety
-/// As [`read_versioned`].
-unsafe fn required<T: super::guard::Versioned>(pointer: *const T, what: &'static str) -> Result<T, Error> {
-    if pointer.is_null() {
-        return Err(Error::NullPointer { what });
-    }
-    // SAFETY: handed on.
-    unsafe { read_versioned(pointer) }
 }
 
 fn weight(options: &umb_normal_options) -> Result<Weight, Error> {

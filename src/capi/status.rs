@@ -29,7 +29,7 @@ pub const UMB_ERROR_SIZE: umb_status = 7;
 pub const UMB_ERROR_OFFSETS: umb_status = 8;
 /// An index is negative, or not below the number of what it counts.
 pub const UMB_ERROR_INDEX_OUT_OF_RANGE: umb_status = 9;
-/// A coordinate, or a normal given, is NaN or infinite.
+/// A coordinate, or one of a normal or direction given, is NaN or infinite.
 pub const UMB_ERROR_NON_FINITE: umb_status = 10;
 /// More vertices, faces or corners than 32-bit tables can hold.
 pub const UMB_ERROR_TOO_LARGE: umb_status = 11;
@@ -88,7 +88,9 @@ impl Failure {
                 Error::Size { .. } => UMB_ERROR_SIZE,
                 Error::Offsets { .. } => UMB_ERROR_OFFSETS,
                 Error::IndexOutOfRange { .. } | Error::NoSuchElement { .. } => UMB_ERROR_INDEX_OUT_OF_RANGE,
-                Error::NonFinitePosition { .. } | Error::NonFiniteNormal { .. } => UMB_ERROR_NON_FINITE,
+                Error::NonFinitePosition { .. }
+                | Error::NonFiniteNormal { .. }
+                | Error::NonFiniteDirection { .. } => UMB_ERROR_NON_FINITE,
                 Error::NotApplicable { .. } => UMB_ERROR_NOT_APPLICABLE,
                 Error::OptionOutOfRange { .. } => UMB_ERROR_OPTION_OUT_OF_RANGE,
                 Error::TooLarge { .. } => UMB_ERROR_TOO_LARGE,

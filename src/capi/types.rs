@@ -80,8 +80,8 @@ pub struct umb_faces {
 /// An array to write, in the caller's memory: of vectors, `#V x 3`, or of single scalars, `#V`, as the field that holds it
 /// says. Null `data`: not wanted.
 ///
-/// It has an element for every vertex (or face) of the mesh. The bytes between elements are left alone, so an output may
-/// be interleaved with the positions. Its elements must not overlap those of any other array of the call.
+/// It has an element for every vertex (or face) of the mesh or polyline. The bytes between elements are left alone, so an
+/// output may be interleaved with the positions. Its elements must not overlap those of any other array of the call.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_output {
@@ -95,7 +95,7 @@ pub struct umb_output {
     pub reserved: u32,
 }
 
-/// An array of bytes to write, in the caller's memory: `UMB_VERTEX_` bits. Null `data`: not wanted.
+/// An array of bytes to write, in the caller's memory: `UMB_VERTEX_` or `UMB_POLYLINE_` bits. Null `data`: not wanted.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_status_output {
@@ -149,6 +149,8 @@ versioned! {
     umb_face_options: 48, 32;
     umb_normal_outputs: 72, 48;
     umb_face_outputs: 72, 48;
+    umb_polyline_options: 48, 32;
+    umb_polyline_outputs: 120, 80;
 }
 
 impl umb_points {

@@ -15,10 +15,11 @@
 //! makes the point as round as the sections allow, and the status says fallback. A vertex without any edge left has no
 //! result. A boundary needs no rule. Cost: two divisions and a dozen products an edge.
 
+use super::Section;
 use super::outputs::Local;
 use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
-use super::section::{self, Section};
+use super::section::{self, EdgeCurvature};
 use crate::simd::Vector;
 use crate::sweep::{Ring, RingFaces, Scratch};
 
@@ -89,7 +90,8 @@ impl RingEstimator for LeastSquares {
     ) {
         for index in 0..ring.edge_count() {
             let edge = ring.edges[index];
-            let (curvature, counted) = section::edge(edge, ring.squared[index], frame.normal, self.section);
+            let EdgeCurvature { curvature, weight: counted } =
+                section::edge(edge, ring.squared[index], frame.normal, self.section);
             let (cos, sin) = double_angle(frame.tangential(edge));
             let (cos, sin) = (cos * counted, sin * counted);
             sums.count = sums.count + counted;

@@ -12,10 +12,11 @@
 //! edges without length, along the normal or without area are left out; a vertex with none left has no result.
 //! Cost: one root and three divisions a corner.
 
+use super::Section;
 use super::outputs::Local;
 use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
-use super::section::{self, Section};
+use super::section::{self, EdgeCurvature};
 use super::shape_operator::double_angle;
 use crate::simd::Vector;
 use crate::sweep::{Ring, RingFaces, Scratch};
@@ -58,7 +59,8 @@ impl RingEstimator for Taubin {
         });
         for index in 0..ring.edge_count() {
             let edge = ring.edges[index];
-            let (curvature, counted) = section::edge(edge, ring.squared[index], frame.normal, self.section);
+            let EdgeCurvature { curvature, weight: counted } =
+                section::edge(edge, ring.squared[index], frame.normal, self.section);
             let weight = (areas[index] + areas[index + 1]) * counted;
             let (cos, sin) = double_angle(frame.tangential(edge));
             let weighted = curvature * weight;

@@ -10,11 +10,10 @@ use super::patch::PatchCurvatures;
 use super::quadric::Quadric;
 use super::ring::Curvatures;
 use super::rusinkiewicz::Rusinkiewicz;
-use super::section::Section;
 use super::shape_operator::LeastSquares;
 use super::taubin::Taubin;
 use super::watanabe::Watanabe;
-use super::{CurvatureOutputs, Method};
+use super::{CurvatureOutputs, Method, Section};
 use crate::error::Error;
 use crate::fit::{JetFit, JetOptions, MOST_DEGREE};
 use crate::normals::{NormalOutputs, Weight, reference_normals, vertex_normals};
@@ -207,6 +206,18 @@ fn check_list(topology: &Topology, vertices: Option<&[u32]>) -> Result<(), Error
     };
     let (index, vertex_count) = (vertices[position] as i128, vertex_count as u64);
     Err(Error::IndexOutOfRange { what: "run.vertices", position: position as u64, index, vertex_count })
+}
+
+/// Checks counts and the list of vertices, then unit normals of these, as a part of a run.
+pub(super) fn unit_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    asked: VertexNormals<'_>,
+    run: &mut Run<'_>,
+) -> Result<Vec<[f64; 3]>, Error> {
+    check_count(topology, points)?;
+    check_list(topology, run.vertices)?;
+    run.part(0.0, NORMAL_SHARE, |run| normals_of(topology, points, asked, run))
 }
 
 /// Unit normals of the vertices that `run` asks for; zero where there is none.

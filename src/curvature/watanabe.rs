@@ -10,10 +10,11 @@
 //! the normal is left out; a vertex with none left has no result. Cost: an angle polynomial, a root and three divisions a
 //! corner.
 
+use super::Section;
 use super::outputs::Local;
 use super::principal::Frame;
 use super::ring::RingEstimator;
-use super::section::{self, Section};
+use super::section::{self, EdgeCurvature};
 use crate::simd::Vector;
 use crate::sweep::{Ring, RingFaces, Scratch};
 
@@ -49,7 +50,7 @@ impl RingEstimator for Watanabe {
         let [angles, ..] = &mut scratch.numbers;
         ring.fill_corners(angles, |corner| corner.unit_and_angle().1);
         for index in 0..ring.edge_count() {
-            let (curvature, counted) =
+            let EdgeCurvature { curvature, weight: counted } =
                 section::edge(ring.edges[index], ring.squared[index], frame.normal, self.section);
             let weight = (angles[index] + angles[index + 1]) * counted;
             sums.weight = sums.weight + weight;

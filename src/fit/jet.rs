@@ -43,8 +43,6 @@ pub(crate) struct Jet<V: Vector> {
     /// The shape operator `a, b, d` in the axes `x`, `y`: the curvature of a section along `(c, s)` is `a c² + 2 b c s + d s²`.
     /// In the patch's units.
     pub shape: [V; 3],
-    /// How far the surface lies above the vertex, along the fit's axis, in the patch's units.
-    pub height: V,
     /// The root of the mean of the squared height differences, in the patch's units.
     pub residual: V,
     /// The condition of the least-squares problem, if it was asked for; else 0.
@@ -63,7 +61,6 @@ const NO_JET: Jet<f64> = Jet {
     x: NOWHERE,
     y: NOWHERE,
     shape: [0.0; 3],
-    height: 0.0,
     residual: 0.0,
     condition: 0.0,
     trusted: false,
@@ -200,17 +197,7 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     // A vertex without a normal has nothing to tell the sides of the surface by.
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
     let trusted = solution.trusted.and(agrees);
-    Jet {
-        normal,
-        x,
-        y: normal.cross(x),
-        shape,
-        height: u[0],
-        residual,
-        condition,
-        trusted,
-        determined: solution.trusted,
-    }
+    Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined: solution.trusted }
 }
 
 #[cfg(test)]
@@ -275,7 +262,7 @@ mod tests {
             let w = (1.0 + p * p + q * q).sqrt();
             let normal = axes.vector(-p / w, -q / w, 1.0 / w);
             assert!((jet.normal - normal).squared().sqrt() < tolerance);
-            assert!(jet.height.abs() < tolerance && jet.residual < tolerance);
+            assert!(jet.residual < tolerance);
             assert!((jet.x.squared() - 1.0).abs() < 1e-14 && jet.x.dot(jet.normal).abs() < 1e-14);
             assert!((jet.y.squared() - 1.0).abs() < 1e-14 && jet.x.cross(jet.y).dot(jet.normal) > 0.99999);
             assert!(jet.determined);

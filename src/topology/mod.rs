@@ -135,6 +135,16 @@ impl Topology {
         self.rings.ring(vertex)
     }
 
+    /// The rings of all vertices one after the other, as [`Topology::ring`] has them.
+    pub fn ring_neighbours(&self) -> &[u32] {
+        self.rings.neighbours()
+    }
+
+    /// Where each vertex's ring starts in [`Topology::ring_neighbours`], and the end of the last.
+    pub fn ring_offsets(&self) -> &[u32] {
+        self.rings.offsets()
+    }
+
     /// The number of edges at a vertex. At a vertex with several fans this sorts a copy of its ring.
     ///
     /// # Errors

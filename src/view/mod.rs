@@ -8,6 +8,7 @@ mod faces;
 mod memory;
 mod output;
 mod points;
+mod polyline;
 mod rings;
 
 pub use faces::{Faces, IndexArray, Indices};
@@ -16,6 +17,8 @@ pub(crate) use memory::{Zero, zeroed};
 pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};
+pub(crate) use polyline::PolylineArray;
+pub use polyline::PolylinePoints;
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
 
 use crate::error::Error;

@@ -17,9 +17,9 @@ pub(crate) enum PointArray<'a> {
     F64(StridedPoints<'a, f64>),
 }
 
-/// Positions of one scalar type.
+/// Positions of one scalar type, in `N` dimensions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StridedPoints<'a, S> {
+pub(crate) struct StridedPoints<'a, S, const N: usize = 3> {
     base: *const u8,
     count: usize,
     stride: usize,
@@ -27,14 +27,17 @@ pub(crate) struct StridedPoints<'a, S> {
 }
 
 // SAFETY: a shared borrow of plain numbers.
-unsafe impl<S: Sync> Send for StridedPoints<'_, S> {}
+unsafe impl<S: Sync, const N: usize> Send for StridedPoints<'_, S, N> {}
 // SAFETY: as above; nothing is ever written through it.
-unsafe impl<S: Sync> Sync for StridedPoints<'_, S> {}
+unsafe impl<S: Sync, const N: usize> Sync for StridedPoints<'_, S, N> {}
 
 /// A scalar that positions come in.
 pub(crate) trait Coordinate: Real {}
 impl Coordinate for f32 {}
 impl Coordinate for f64 {}
+
+/// What messages call positions and their start.
+const NAMES: [&str; 2] = ["points", "points.data"];
 
 impl<'a> Points<'a> {
     /// Positions that start at `data` and lie `stride` bytes apart (0: packed), in single precision.
@@ -47,7 +50,7 @@ impl<'a> Points<'a> {
     /// `data` may be null or dangling when `count` is 0.
     pub unsafe fn from_raw_f32(data: *const f32, count: usize, stride: usize) -> Result<Self, Error> {
         // SAFETY: handed on.
-        unsafe { StridedPoints::new(data, count, stride) }.map(PointArray::F32).map(Points)
+        unsafe { StridedPoints::new(NAMES, data, count, stride) }.map(PointArray::F32).map(Points)
     }
 
     /// As [`Points::from_raw_f32`], in double precision.
@@ -59,7 +62,7 @@ impl<'a> Points<'a> {
     /// As [`Points::from_raw_f32`].
     pub unsafe fn from_raw_f64(data: *const f64, count: usize, stride: usize) -> Result<Self, Error> {
         // SAFETY: handed on.
-        unsafe { StridedPoints::new(data, count, stride) }.map(PointArray::F64).map(Points)
+        unsafe { StridedPoints::new(NAMES, data, count, stride) }.map(PointArray::F64).map(Points)
     }
 
     pub(crate) fn array(&self) -> &PointArray<'a> {
@@ -113,13 +116,20 @@ impl<'a> From<&'a [[f64; 3]]> for StridedPoints<'a, f64> {
     }
 }
 
-impl<'a, S: Coordinate> StridedPoints<'a, S> {
+impl<'a, S: Coordinate, const N: usize> StridedPoints<'a, S, N> {
+    /// Points of an array that messages call `what`, and its start `data_name`.
+    ///
     /// # Safety
     /// As [`Points::from_raw_f32`].
-    unsafe fn new(data: *const S, count: usize, stride: usize) -> Result<Self, Error> {
-        let stride = checked_stride::<S>("points", data as usize, count, stride, 3)?;
+    pub(super) unsafe fn new(
+        [what, data_name]: [&'static str; 2],
+        data: *const S,
+        count: usize,
+        stride: usize,
+    ) -> Result<Self, Error> {
+        let stride = checked_stride::<S>(what, data as usize, count, stride, N)?;
         if data.is_null() && count > 0 {
-            return Err(Error::NullPointer { what: "points.data" });
+            return Err(Error::NullPointer { what: data_name });
         }
         Ok(StridedPoints { base: data.cast(), count, stride, memory: PhantomData })
     }
@@ -141,43 +151,53 @@ impl<'a, S: Coordinate> StridedPoints<'a, S> {
 
     /// Whether a point starts where the one before it ends.
     pub(crate) fn is_packed(&self) -> bool {
-        self.stride == 3 * size_of::<S>()
+        self.stride == N * size_of::<S>()
     }
 
-    /// The three coordinates of a point.
+    /// The coordinates of a point.
     #[inline(always)]
-    pub(crate) fn coordinates(&self, index: usize) -> [S; 3] {
+    pub(crate) fn coordinates(&self, index: usize) -> [S; N] {
         assert!(index < self.count, "point {index} of {}", self.count);
         // SAFETY: the index is in range, so the point lies in the borrowed memory.
-        unsafe { self.base.add(index * self.stride).cast::<[S; 3]>().read() }
+        unsafe { self.base.add(index * self.stride).cast::<[S; N]>().read() }
     }
 
-    /// A point as `f64`.
-    #[inline(always)]
-    pub(crate) fn get(&self, index: usize) -> DVec3 {
-        let [x, y, z] = self.coordinates(index);
-        DVec3::new(x.into(), y.into(), z.into())
-    }
-
-    fn check_finite(&self) -> Result<(), Error> {
+    /// Finds the first position that is NaN or infinite.
+    pub(super) fn check_finite(&self) -> Result<(), Error> {
         // `0 × x` is 0 for a finite x and NaN otherwise; the sum of a block keeps that, without a branch a point.
         const BLOCK: usize = 1024;
         for start in (0..self.count).step_by(BLOCK) {
             let block = start..self.count.min(start + BLOCK);
-            let mut sum = [S::ZERO; 3];
+            let mut sum = [S::ZERO; N];
             for index in block.clone() {
                 let point = self.coordinates(index);
-                for axis in 0..3 {
+                for axis in 0..N {
                     sum[axis] = sum[axis] + point[axis] * S::ZERO;
                 }
             }
             if sum.iter().any(|sum| *sum != S::ZERO) {
-                let finite = |index: &usize| self.get(*index).is_finite();
+                let finite =
+                    |index: &usize| self.coordinates(*index).map(Into::into).iter().all(|x: &f64| x.is_finite());
                 let vertex = block.into_iter().find(|index| !finite(index)).unwrap_or(start) as u64;
                 return Err(Error::NonFinitePosition { vertex });
             }
         }
         Ok(())
+    }
+
+    /// An array of points in memory.
+    pub(super) fn of_slice(points: &'a [[S; N]]) -> Self {
+        let (base, count) = (points.as_ptr().cast(), points.len());
+        StridedPoints { base, count, stride: size_of::<[S; N]>(), memory: PhantomData }
+    }
+}
+
+impl<S: Coordinate> StridedPoints<'_, S> {
+    /// A point as `f64`.
+    #[inline(always)]
+    pub(crate) fn get(&self, index: usize) -> DVec3 {
+        let [x, y, z] = self.coordinates(index);
+        DVec3::new(x.into(), y.into(), z.into())
     }
 }
 
@@ -201,12 +221,7 @@ macro_rules! from_slices {
     ($variant:ident, $scalar:ty, $vector:ty) => {
         impl<'a> From<&'a [[$scalar; 3]]> for Points<'a> {
             fn from(points: &'a [[$scalar; 3]]) -> Self {
-                Points(PointArray::$variant(StridedPoints {
-                    base: points.as_ptr().cast(),
-                    count: points.len(),
-                    stride: size_of::<[$scalar; 3]>(),
-                    memory: PhantomData,
-                }))
+                Points(PointArray::$variant(StridedPoints::of_slice(points)))
             }
         }
         impl<'a> From<&'a [$vector]> for Points<'a> {

@@ -170,6 +170,16 @@ impl Rings {
         self.classes.len()
     }
 
+    /// The flat array.
+    pub(crate) fn neighbours(&self) -> &[u32] {
+        &self.neighbours
+    }
+
+    /// Where each ring starts in the flat array, and the end of the last.
+    pub(crate) fn offsets(&self) -> &[u32] {
+        &self.offsets
+    }
+
     /// All neighbours of a vertex, fan after fan.
     #[inline(always)]
     pub(crate) fn ring(&self, vertex: usize) -> &[u32] {

@@ -9,12 +9,16 @@ static umb_status call_everything(const umb_faces *faces, const umb_points *poin
   umb_normal_outputs normal_outputs = UMB_NORMAL_OUTPUTS_INIT;
   umb_face_options face_options = UMB_FACE_OPTIONS_INIT;
   umb_face_outputs face_outputs = UMB_FACE_OUTPUTS_INIT;
+  umb_polyline polyline = {points->data, points->count, points->stride, points->scalar, 3, 1, 0};
+  umb_polyline_options polyline_options = UMB_POLYLINE_OPTIONS_INIT;
+  umb_polyline_outputs polyline_outputs = UMB_POLYLINE_OUTPUTS_INIT;
   umb_topology *topology = NULL;
   umb_status status = umb_topology_create(faces, points->count, &topology_options, &topology, &error);
   if (status == UMB_OK) status = umb_topology_get_stats(topology, &stats, &error);
   if (status == UMB_OK) status = umb_vertex_normals(topology, points, &normal_options, &normal_outputs, &error);
   if (status == UMB_OK) status = umb_vertex_normals_from_faces(faces, points, &normal_options, &normal_outputs, &error);
   if (status == UMB_OK) status = umb_face_normals(faces, points, &face_options, &face_outputs, &error);
+  if (status == UMB_OK) status = umb_polyline_curvatures(&polyline, &polyline_options, &polyline_outputs, &error);
   if (status == UMB_OK && stats.vertex_count != umb_topology_vertex_count(topology)) status = UMB_ERROR_INTERNAL;
   if (status == UMB_OK && stats.face_count != umb_topology_face_count(topology)) status = UMB_ERROR_INTERNAL;
   umb_topology_destroy(topology);

@@ -64,6 +64,29 @@ OFFSET(umb_points, stride, 16);
 OFFSET(umb_points, scalar, 24);
 OFFSET(umb_points, reserved, 28);
 
+SIZE(umb_polyline, 40);
+OFFSET(umb_polyline, data, 0);
+OFFSET(umb_polyline, count, 8);
+OFFSET(umb_polyline, stride, 16);
+OFFSET(umb_polyline, scalar, 24);
+OFFSET(umb_polyline, dimension, 28);
+OFFSET(umb_polyline, closed, 32);
+OFFSET(umb_polyline, reserved, 36);
+
+SIZE(umb_polyline_options, 48);
+OFFSET(umb_polyline_options, struct_size, 0);
+OFFSET(umb_polyline_options, reserved, 4);
+OFFSET(umb_polyline_options, run, 8);
+
+SIZE(umb_polyline_outputs, 120);
+OFFSET(umb_polyline_outputs, struct_size, 0);
+OFFSET(umb_polyline_outputs, reserved, 4);
+OFFSET(umb_polyline_outputs, circle, 8);
+OFFSET(umb_polyline_outputs, parabola, 32);
+OFFSET(umb_polyline_outputs, length_parabola, 56);
+OFFSET(umb_polyline_outputs, symmetric_parabola, 80);
+OFFSET(umb_polyline_outputs, status, 104);
+
 SIZE(umb_run, 40);
 OFFSET(umb_run, threads, 0);
 OFFSET(umb_run, simd, 4);

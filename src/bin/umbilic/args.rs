@@ -67,6 +67,11 @@ pub fn png_file(name: &str) -> Result<PathBuf, String> {
     file_of("png", name)
 }
 
+/// The name of a CSV file to write.
+pub fn csv_file(name: &str) -> Result<PathBuf, String> {
+    file_of("csv", name)
+}
+
 /// Devices and pipes need no extension; a wrong one would promise another format.
 fn file_of(extension: &str, name: &str) -> Result<PathBuf, String> {
     match Path::new(name).extension() {
@@ -124,6 +129,6 @@ mod tests {
     #[test]
     fn extensions_must_tell_the_format() {
         assert!(ply_file("a.PLY").is_ok() && ply_file("/dev/null").is_ok());
-        assert!(ply_file("a.obj").is_err() && png_file("a.ply").is_err());
+        assert!(ply_file("a.obj").is_err() && png_file("a.ply").is_err() && csv_file("a.txt").is_err());
     }
 }

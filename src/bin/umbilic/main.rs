@@ -1,4 +1,4 @@
-//! The program `umbilic`: vertex normals, facts and pictures of meshes in files.
+//! The program `umbilic`: vertex normals, facts and pictures of meshes in files, and curvatures of polylines.
 //!
 //! Each of the [`commands`] has a file of its own. What they share: [`args`] (value parsers), [`compute`] (calls of the
 //! library), [`read`], [`write`], [`render`] and [`generate`] for a [`mesh`], [`progress`] bars and printed [`table`]s.
@@ -20,9 +20,9 @@ use commands::Command;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Vertex normals of polygon meshes.
+/// Vertex normals of polygon meshes, curvatures of polylines.
 ///
-/// Reads OBJ, PLY, STL and OFF files. Polygons are used as they are, not cut into triangles first.
+/// Reads meshes from OBJ, PLY, STL and OFF files. Polygons are used as they are, not cut into triangles first.
 #[derive(Parser)]
 #[command(version, arg_required_else_help = true, after_help = EXAMPLES)]
 struct Cli {
@@ -36,6 +36,7 @@ Examples:
   umbilic info torus.ply
   umbilic normals torus.ply -o with-normals.ply
   umbilic render torus.ply -o torus.png
+  umbilic polyline outline.txt --closed
 
 Exit status: 0 done, 1 failed, 2 wrong usage.";
 

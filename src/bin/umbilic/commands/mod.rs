@@ -3,6 +3,7 @@
 mod generate;
 mod info;
 mod normals;
+mod polyline;
 mod render;
 
 use clap::Subcommand;
@@ -14,6 +15,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 #[derive(Subcommand)]
 pub enum Command {
     Normals(normals::Normals),
+    Polyline(polyline::Polyline),
     Info(info::Info),
     Render(render::Render),
     Generate(generate::Generate),
@@ -24,6 +26,7 @@ impl Command {
     pub fn run(&self) -> Outcome {
         match self {
             Command::Normals(command) => command.run(),
+            Command::Polyline(command) => command.run(),
             Command::Info(command) => command.run(),
             Command::Render(command) => command.run(),
             Command::Generate(command) => command.run(),

@@ -1,4 +1,4 @@
-//! Reads a polygon mesh from an OBJ, PLY, STL or OFF file.
+//! Reads a polygon mesh from an OBJ, PLY, STL or OFF file, and a polyline from a text file.
 //!
 //! The format follows from the file name's extension and, when that says nothing, from the first bytes. Every reader
 //! keeps polygons as they are, keeps the order of the vertices (STL has none, so there equal corners become one
@@ -11,8 +11,11 @@ mod builder;
 mod obj;
 mod off;
 mod ply;
+mod points;
 mod scanner;
 mod stl;
+
+pub use points::PolylineFile;
 
 use crate::mesh::PolygonMesh;
 use crate::progress;
@@ -117,6 +120,18 @@ impl Format {
 /// Reads the mesh in a file, with a progress bar if it is large.
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh, ReadError> {
     read_file(path).map_err(|fault| ReadError { path: path.to_owned(), fault })
+}
+
+/// Reads the polyline in a text file, with a progress bar if it is large.
+pub fn read_polyline(path: &Path) -> Result<PolylineFile, ReadError> {
+    let read = || {
+        let file = File::open(path)?;
+        let bar = progress::reading(file.metadata()?.len());
+        let polyline = points::read(BufReader::new(bar.wrap_read(file)));
+        bar.finish_and_clear();
+        polyline
+    };
+    read().map_err(|fault| ReadError { path: path.to_owned(), fault })
 }
 
 /// Opens a file, finds out its format and reads it.

@@ -63,6 +63,11 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
+    /// The current line without its comment.
+    pub(super) fn text(&self) -> &str {
+        &self.line
+    }
+
     /// All words of the current line.
     pub(super) fn words(&self) -> SplitWhitespace<'_> {
         self.line.split_whitespace()
