@@ -55,6 +55,10 @@
 #define UMB_NORMAL_OUTPUTS_INIT UMB_INIT_(umb_normal_outputs)
 #define UMB_FACE_OPTIONS_INIT UMB_INIT_(umb_face_options)
 #define UMB_FACE_OUTPUTS_INIT UMB_INIT_(umb_face_outputs)
+#define UMB_CURVATURE_OPTIONS_INIT UMB_INIT_(umb_curvature_options)
+#define UMB_CURVATURE_OUTPUTS_INIT UMB_INIT_(umb_curvature_outputs)
+#define UMB_SECTION_OPTIONS_INIT UMB_INIT_(umb_section_options)
+#define UMB_SECTION_OUTPUTS_INIT UMB_INIT_(umb_section_outputs)
 #define UMB_POLYLINE_OPTIONS_INIT UMB_INIT_(umb_polyline_options)
 #define UMB_POLYLINE_OUTPUTS_INIT UMB_INIT_(umb_polyline_outputs)
 
@@ -93,6 +97,23 @@
  * Nothing at all could be computed; the results are zero. Also the status of a face without area.
  */
 #define UMB_VERTEX_DEGENERATE 32
+
+/**
+ * The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
+ */
+#define UMB_VERTEX_WIDENED 64
+
+/**
+ * Bit of a section's status: the plane meets the ring on one side of the vertex only; its mirror image stands in for the
+ * other.
+ */
+#define UMB_SECTION_STATUS_ONE_SIDED 1
+
+/**
+ * Bit of a section's status: there is no section (no length, no normal, or nothing of the ring in its plane); its curvature
+ * is 0.
+ */
+#define UMB_SECTION_STATUS_NONE 2
 
 /**
  * Bit of a polyline's status: an end of an open polyline; its curvatures are 0.
@@ -344,7 +365,7 @@ typedef struct umb_points {
 } umb_points;
 
 /**
- * How a vertex normal weighs the faces around the vertex: a `UMB_WEIGHT_` constant.
+ * How a vertex normal weighs the faces around the vertex, or what it fits: a `UMB_WEIGHT_` constant.
  *
  * N_i is the unit normal of face i at the vertex, theta_i its interior angle there (up to 2 pi at a reflex corner of a
  * polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
@@ -413,6 +434,16 @@ typedef struct umb_normal_options {
    * How to run.
    */
   struct umb_run run;
+  /**
+   * `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
+   */
+  uint32_t degree;
+  /**
+   * `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
+   * degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
+   * than 255 vertices are used. Other weights do not look at it.
+   */
+  uint32_t rings;
 } umb_normal_options;
 
 /**
@@ -475,7 +506,7 @@ typedef struct umb_normal_outputs {
    * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
    * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
    * status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-   * stands.
+   * stands. For jets, which sum nothing, it is the unit normal itself.
    */
   struct umb_output sum;
   /**
@@ -527,6 +558,239 @@ typedef struct umb_face_outputs {
    */
   struct umb_status_output status;
 } umb_face_outputs;
+
+/**
+ * How curvatures are estimated: a `UMB_CURVATURE_` constant.
+ *
+ * What each has to give; any other output is refused with `UMB_ERROR_NOT_APPLICABLE`:
+ *
+ * | method                       | k1 k2, shape index, curvedness | directions | H, H N | K | area | integrals | residual | condition |
+ * |------------------------------|---|---|---|---|---|-------|-----------|---|
+ * | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
+ * | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
+ * | TAUBIN, RUSINKIEWICZ         | x | x | x | x |   |       |           |   |
+ * | WATANABE                     | x |   | x | x |   |       |           |   |
+ * | MEYER                        | x |   | x | x | x | H, K  |           |   |
+ * | ANGLE_DEFECT                 |   |   |   | x | x | K     |           |   |
+ * | NORMAL_CYCLE                 | x | x | x | x | x | H     |           |   |
+ * | CORRECTED_MEASURE            | x | x | x | x | x | H, K  |           |   |
+ *
+ * Every method takes triangles and polygons, and any vertex: boundary, non-manifold (all fans count together), isolated.
+ */
+typedef uint32_t umb_curvature_method;
+
+/**
+ * The formula of a section's curvature: a `UMB_SECTION_` constant.
+ *
+ * Of three points A, V, C with a = A - V, c = C - V, phi the angle between them and d = |C - A|, or of one edge x and a unit
+ * normal N.
+ */
+typedef uint32_t umb_section;
+
+/**
+ * Which curvatures to compute, and how. All zero: jets of degree 3 over two rings, at all vertices.
+ */
+typedef struct umb_curvature_options {
+  /**
+   * `sizeof(umb_curvature_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * The method.
+   */
+  umb_curvature_method method;
+  /**
+   * The formula of sections, for `LEAST_SQUARES`, `TAUBIN` and `WATANABE`; others do not look at it. The parabolas are
+   * one here.
+   */
+  umb_section section;
+  /**
+   * The weight of the vertex normals, if `normals.data` is null.
+   */
+  umb_weight weight;
+  /**
+   * For measures, the radius of a ball around the vertex instead of rings, in the mesh's unit; 0 for none. A vertex
+   * connected to the centre inside the ball counts with its share of the surface, by the part of it inside. The cost
+   * grows with the number of vertices in each ball.
+   */
+  double radius;
+  /**
+   * The degree of jets; 0 for the default.
+   */
+  uint32_t degree;
+  /**
+   * How many rings count; 0 for the method's default. Methods of one ring take 0 and 1.
+   */
+  uint32_t rings;
+  /**
+   * `UMB_WEIGHT_JET` only: see `degree` of `umb_normal_options`.
+   */
+  uint32_t normal_degree;
+  /**
+   * `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+   */
+  uint32_t normal_rings;
+  /**
+   * Vertex normals of the caller's, `#V x 3`, of any length; a vertex whose normal is zero has no curvature. Null data:
+   * computed with `weight`.
+   */
+  struct umb_points normals;
+  /**
+   * How to run.
+   */
+  struct umb_run run;
+} umb_curvature_options;
+
+/**
+ * Where curvatures go; any of them may be left out. All are pointwise unless the name says integrated.
+ */
+typedef struct umb_curvature_outputs {
+  /**
+   * `sizeof(umb_curvature_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * The larger principal curvature, `#V`, 1/length.
+   */
+  struct umb_output k1;
+  /**
+   * The smaller principal curvature, `#V`, 1/length.
+   */
+  struct umb_output k2;
+  /**
+   * The unit tangent direction of k1, `#V x 3`; the first of its largest components is positive. At an umbilic, where
+   * every direction is principal, some tangent.
+   */
+  struct umb_output direction1;
+  /**
+   * The unit tangent direction of k2, `#V x 3`: normal x direction1.
+   */
+  struct umb_output direction2;
+  /**
+   * Mean curvature H = (k1 + k2) / 2, `#V`, 1/length.
+   */
+  struct umb_output mean;
+  /**
+   * Gaussian curvature K = k1 k2, `#V`, 1/length^2.
+   */
+  struct umb_output gaussian;
+  /**
+   * The mean curvature normal H N, `#V x 3`, 1/length: along the outward normals of a sphere.
+   */
+  struct umb_output mean_normal;
+  /**
+   * The area that the vertex stands for, `#V`, length^2.
+   */
+  struct umb_output area;
+  /**
+   * Mean curvature integrated over that area, `#V`, length.
+   */
+  struct umb_output integrated_mean;
+  /**
+   * Gaussian curvature integrated over that area, `#V`, without unit.
+   */
+  struct umb_output integrated_gaussian;
+  /**
+   * Koenderink's shape index (2/pi) atan((k1 + k2) / (k1 - k2)), `#V`: 1 at a cap, 0.5 on a ridge, 0 at a symmetric
+   * saddle and in a plane, -0.5 in a rut, -1 in a cup.
+   */
+  struct umb_output shape_index;
+  /**
+   * Koenderink's curvedness sqrt((k1^2 + k2^2) / 2), `#V`, 1/length.
+   */
+  struct umb_output curvedness;
+  /**
+   * The root mean square of what a fit left over, `#V`: length where heights were fitted, 1/length where curvatures
+   * were; for `GOLDFEATHER`, heights and slopes together in units of about the neighbourhood's size.
+   */
+  struct umb_output residual;
+  /**
+   * The condition number of a fit (Frobenius norm, columns of length 1), `#V`.
+   */
+  struct umb_output condition;
+  /**
+   * The unit normals that all this belongs to, `#V x 3`.
+   */
+  struct umb_output normal;
+  /**
+   * `UMB_VERTEX_` bits, `#V`.
+   */
+  struct umb_status_output status;
+} umb_curvature_outputs;
+
+/**
+ * Which sections to compute, and how. All zero: symmetric parabolas with N_CM, at all vertices.
+ */
+typedef struct umb_section_options {
+  /**
+   * `sizeof(umb_section_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * The formula.
+   */
+  umb_section section;
+  /**
+   * The weight of the vertex normals, if `normals.data` is null.
+   */
+  umb_weight weight;
+  /**
+   * `umb_direction_sections` only: 1 if `directions` is one set for every vertex, 0 if it has one for each.
+   */
+  uint32_t shared;
+  /**
+   * Vertex normals of the caller's, `#V x 3`, of any length; a vertex whose normal is zero has no section. Null data:
+   * computed with `weight`.
+   */
+  struct umb_points normals;
+  /**
+   * `umb_direction_sections` only: directions of any length, `#V x 3`, or `#D x 3` if shared; each is projected onto the
+   * tangent plane.
+   */
+  struct umb_points directions;
+  /**
+   * `UMB_WEIGHT_JET` only: see `degree` of `umb_normal_options`.
+   */
+  uint32_t normal_degree;
+  /**
+   * `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+   */
+  uint32_t normal_rings;
+  /**
+   * How to run.
+   */
+  struct umb_run run;
+} umb_section_options;
+
+/**
+ * Where sections go; any of them may be left out.
+ */
+typedef struct umb_section_outputs {
+  /**
+   * `sizeof(umb_section_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * The curvature of each section, 1/length; positive where the surface bends away from the normal.
+   */
+  struct umb_output curvature;
+  /**
+   * `UMB_SECTION_STATUS_` bits, one byte for each section.
+   */
+  struct umb_status_output status;
+  /**
+   * The unit vertex normals that were used, `#V x 3`.
+   */
+  struct umb_output normal;
+} umb_section_outputs;
 
 /**
  * A polyline, `#V x 2` or `#V x 3`, borrowed for the call. It joins each point to the next.
@@ -674,7 +938,7 @@ typedef struct umb_polyline_outputs {
 #define UMB_ERROR_INDEX_OUT_OF_RANGE 9
 
 /**
- * A coordinate is NaN or infinite.
+ * A coordinate, or one of a normal or direction given, is NaN or infinite.
  */
 #define UMB_ERROR_NON_FINITE 10
 
@@ -682,6 +946,16 @@ typedef struct umb_polyline_outputs {
  * More vertices, faces or corners than 32-bit tables can hold.
  */
 #define UMB_ERROR_TOO_LARGE 11
+
+/**
+ * An output is asked for, or an option set, that the method does not have.
+ */
+#define UMB_ERROR_NOT_APPLICABLE 12
+
+/**
+ * An option is outside its range.
+ */
+#define UMB_ERROR_OPTION_OUT_OF_RANGE 13
 
 /**
  * No memory for a buffer.
@@ -802,6 +1076,110 @@ typedef struct umb_polyline_outputs {
  */
 #define UMB_WEIGHT_ANGLE_EDGES 9
 
+/**
+ * No average, but the normal of an osculating jet (Cazals and Pouget 2005): a polynomial height field, fitted by least
+ * squares to the vertices within several rings, over their plane of least squares. See `degree` and `rings` of
+ * `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
+ * creases it rounds what the averages keep. The area-weighted normal says to which side it points.
+ */
+#define UMB_WEIGHT_JET 10
+
+/**
+ * Osculating jets (Cazals and Pouget 2005): a polynomial height field over several rings, over the plane of least squares of
+ * its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
+ * 3 at degree 4). Of order degree - 1 on meshes of any kind: the default. Where points are too few or in special position
+ * the neighbourhood is widened (`UMB_VERTEX_WIDENED`), then the degree lowered, then curvatures are 0
+ * (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `weight` and `normals` only tell its sides apart.
+ */
+#define UMB_CURVATURE_JET 0
+
+/**
+ * A quadratic height field in the frame of the vertex normal, tangent to its plane (Hamann 1993). `rings` at most 8 (0: 1);
+ * widened as jets are. As good as the normals.
+ */
+#define UMB_CURVATURE_QUADRIC 1
+
+/**
+ * Goldfeather and Interrante 2004: a cubic height field fitted to positions and normals of the neighbours. `rings` at most 8
+ * (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
+ */
+#define UMB_CURVATURE_GOLDFEATHER 2
+
+/**
+ * The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
+ * `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (a grid of quads,
+ * whose edges run in two perpendicular directions), the point is taken to be as round as they allow
+ * (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
+ */
+#define UMB_CURVATURE_LEAST_SQUARES 3
+
+/**
+ * Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
+ * faces at an edge. Does not converge on irregular meshes.
+ */
+#define UMB_CURVATURE_TAUBIN 4
+
+/**
+ * Watanabe and Belyaev 2001: H and (3 H^2 - K)/2 as the means of sectional curvature and of its square, by the trapezoid rule
+ * over the angles of the faces. Does not converge on irregular meshes.
+ */
+#define UMB_CURVATURE_WATANABE 5
+
+/**
+ * Meyer et al. 2003: H N by cotangents, K by the angle defect, both over the mixed Voronoi area (in polygons: by the
+ * Laplacian of Alexa and Wardetzky 2011, over an equal share of the area for each corner). At a boundary the integrals
+ * hold the pull and the turning of the boundary. Does not converge on irregular meshes.
+ */
+#define UMB_CURVATURE_MEYER 6
+
+/**
+ * The angle defect of Gauss and Bonnet: 2 pi less the angles of a closed fan, pi less those of an open one; fans add up.
+ * The integrals over all vertices sum up to 2 pi times the Euler characteristic. Takes no normals.
+ */
+#define UMB_CURVATURE_ANGLE_DEFECT 7
+
+/**
+ * Rusinkiewicz 2004: shape operators of faces from the differences of vertex normals, averaged by mixed area. Converges if
+ * the normals are better than first order.
+ */
+#define UMB_CURVATURE_RUSINKIEWICZ 8
+
+/**
+ * The normal cycle (Cohen-Steiner and Morvan 2003): dihedral angles along edges, over a region of `rings` (0: 1) or of
+ * `radius`. Edges of a single face have none, so values at a boundary are too small.
+ */
+#define UMB_CURVATURE_NORMAL_CYCLE 9
+
+/**
+ * Interpolated corrected curvature measures (Lachaud, Romon, Thibert and Coeurjolly 2020), over a region of `rings` (0: 1) or
+ * of `radius`. Converges if the normals do; exact on spheres with exact normals. H and K are the measures by the area; k1,
+ * k2 and the directions come from the tensor, so k1 k2 is K only in the limit.
+ */
+#define UMB_CURVATURE_CORRECTED_MEASURE 10
+
+/**
+ * The symmetric parabola, kappa_SP: 4 cos(phi/2) / ((|a| + |c|) sin^2(phi/2)), or -2 N.x / |x - (N.x) N|^2. It grows
+ * without bound as the corner sharpens. The default.
+ */
+#define UMB_SECTION_SYMMETRIC_PARABOLA 0
+
+/**
+ * The circle, kappa_C: 2 sin(phi) / d, or -2 N.x / |x|^2. At most 2 / max(|a|, |c|).
+ */
+#define UMB_SECTION_CIRCLE 1
+
+/**
+ * The parabola with the standard parameter 1/2 at V, kappa_P: 8 |a| |c| sin(phi) / d^3; of one edge as
+ * `UMB_SECTION_SYMMETRIC_PARABOLA`.
+ */
+#define UMB_SECTION_PARABOLA 2
+
+/**
+ * The parabola with its parameter in proportion to |a| and |c|: 2 (|a| + |c|)^2 sin(phi) / d^3; of one edge as
+ * `UMB_SECTION_SYMMETRIC_PARABOLA`.
+ */
+#define UMB_SECTION_LENGTH_PARABOLA 3
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -893,6 +1271,28 @@ umb_status umb_topology_get_stats(const struct umb_topology *topology,
                                   struct umb_error *error);
 
 /**
+ * Where each vertex's ring starts in the ring array, and the end of the last: `#V + 1` numbers, in the topology's memory;
+ * null if `topology` is.
+ *
+ * The ring of a vertex holds its neighbours fan after fan, each counter-clockwise: in a closed fan one for each of its faces,
+ * in an open one one more (see `umb_topology_fan`).
+ *
+ * @param topology the handle
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_topology_ring_offsets(const struct umb_topology *topology);
+
+/**
+ * The ring array: the neighbours of all vertices, in the topology's memory; null if `topology` is.
+ *
+ * @param topology the handle
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_topology_ring_neighbours(const struct umb_topology *topology);
+
+/**
  * The number of edges at a vertex. Constant time at a manifold vertex; at one with several fans a copy of its ring is
  * sorted.
  *
@@ -950,7 +1350,7 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
                             struct umb_error *error);
 
 /**
- * Computes vertex normals over the one-rings of a topology.
+ * Computes vertex normals over the one-rings of a topology, or, for jets, over several rings.
  *
  * Pointwise unit vectors; they point to the side from which faces run counter-clockwise. Polygons count by their area
  * vector, taken relative to the polygon. At a boundary vertex the open fan counts as it is; at a non-manifold vertex the
@@ -959,9 +1359,15 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
+ * Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
+ * widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
+ * degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
+ * degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
+ * (`UMB_VERTEX_FALLBACK`).
+ *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
  * the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
- * triangles, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+ * triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
  * bits for any number of threads, any vectors and any choice of vertices.
  *
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.
@@ -1030,6 +1436,97 @@ umb_status umb_face_normals(const struct umb_faces *faces,
                             struct umb_error *error);
 
 /**
+ * Computes curvatures at the vertices of a mesh.
+ *
+ * Signs: a normal section is positive where the surface bends away from the normal, so a sphere of radius r with outward
+ * normals (faces counter-clockwise from outside) has k1 = k2 = H = 1/r and K = 1/r^2; reversing all faces changes the sign
+ * of all but K. k1 >= k2.
+ *
+ * A vertex without any face is isolated, one where the method has nothing to work with is degenerate (no normal, no area, no
+ * edge with a length): all results are 0 there. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
+ * stands. What each method makes of a boundary is said with its constant; the status tells boundary vertices.
+ *
+ * Everything is computed in double precision, relative to each vertex and scaled by powers of two, so neither the distance
+ * from the origin nor the size of the mesh costs accuracy. The results are the same bits for any number of threads, any
+ * vectors and any choice of vertices.
+ *
+ * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners; for methods of several
+ * rings, times the vertices within these (at most 255, of which evenly spaced ones are taken where there are more).
+ *
+ * @param topology the handle
+ * @param points the positions of all its vertices, as many as the topology has; read only during the call
+ * @param options may be null
+ * @param outputs where results go; each has an element for every vertex. Written only if the call succeeds, or, after
+ * a cancel, in part
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`,
+ * `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_NOT_APPLICABLE`,
+ * `_OPTION_OUT_OF_RANGE`, `_OUT_OF_MEMORY`, `_CANCELLED`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_curvatures(const struct umb_topology *topology,
+                          const struct umb_points *points,
+                          const struct umb_curvature_options *options,
+                          const struct umb_curvature_outputs *outputs,
+                          struct umb_error *error);
+
+/**
+ * Computes the curvature of the section along every edge of every vertex's ring, with the vertex normal.
+ *
+ * `curvature` and `status` have an element for each entry of the ring array (`umb_topology_ring_neighbours`): the sections of
+ * vertex v are those from `umb_topology_ring_offsets`[v] on. With a list of vertices only their entries are written.
+ * `directions` must be zero.
+ *
+ * Precision, bits, threads, cost: as `umb_curvatures`.
+ *
+ * @param topology the handle
+ * @param points the positions of all its vertices; read only during the call
+ * @param options may be null
+ * @param outputs where results go. Written only if the call succeeds, or, after a cancel, in part
+ * @param error may be null
+ *
+ * Errors: as `umb_curvatures`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_edge_sections(const struct umb_topology *topology,
+                             const struct umb_points *points,
+                             const struct umb_section_options *options,
+                             const struct umb_section_outputs *outputs,
+                             struct umb_error *error);
+
+/**
+ * Computes the curvatures of normal sections in given tangent directions: the plane of the vertex normal and a direction cuts
+ * the polygon of the ring's neighbours in a point on either side of the vertex, and the three points give the curvature.
+ *
+ * `curvature` and `status` have an element for each vertex; with a shared set of `#D` directions, `#V x #D`: those of vertex v
+ * from v #D on. At a boundary, where the plane meets the ring on one side only, the mirror image of that point stands in
+ * for the other (`UMB_SECTION_STATUS_ONE_SIDED`).
+ *
+ * Precision, bits, threads: as `umb_curvatures`. Cost: linear in the number of corners times the number of directions.
+ *
+ * @param topology the handle
+ * @param points the positions of all its vertices; read only during the call
+ * @param options the directions, and how; not null
+ * @param outputs where results go. Written only if the call succeeds, or, after a cancel, in part
+ * @param error may be null
+ *
+ * Errors: as `umb_curvatures`; `UMB_ERROR_NON_FINITE` also for a direction (element: its index).
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_direction_sections(const struct umb_topology *topology,
+                                  const struct umb_points *points,
+                                  const struct umb_section_options *options,
+                                  const struct umb_section_outputs *outputs,
+                                  struct umb_error *error);
+
+/**
  * Computes the curvatures at the vertices of a polyline, each from the vertex and its two neighbours.
  *
  * Pointwise, in 1/length. In the plane, positive where the polyline turns left, so all along a convex polygon that
@@ -1058,7 +1555,7 @@ umb_status umb_face_normals(const struct umb_faces *faces,
  *
  * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT` (scalars, `dimension`,
  * `closed`), `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_NON_FINITE` (element: point), `_OUT_OF_MEMORY`, `_CANCELLED`.
- * @since 0.2.0
+ * @since 0.1.0
  */
 UMB_API
 UMB_NODISCARD

@@ -16,6 +16,8 @@ macro_rules! layout {
 /// Every field of every struct; `tests/c/layout.c` holds C to the same numbers.
 #[test]
 fn layouts() {
+    layout!(umb_curvature_options: 112, struct_size 0, method 4, section 8, weight 12, radius 16, degree 24, rings 28, normal_degree 32, normal_rings 36, normals 40, run 72);
+    layout!(umb_curvature_outputs: 384, struct_size 0, reserved 4, k1 8, k2 32, direction1 56, direction2 80, mean 104, gaussian 128, mean_normal 152, area 176, integrated_mean 200, integrated_gaussian 224, shape_index 248, curvedness 272, residual 296, condition 320, normal 344, status 368);
     layout!(umb_error: 256, struct_size 0, status 4, element 8, message 16);
     layout!(umb_face_options: 48, struct_size 0, reserved 4, run 8);
     layout!(umb_face_outputs: 72, struct_size 0, reserved 4, normal 8, area_vector 32, status 56);
@@ -29,6 +31,8 @@ fn layouts() {
     layout!(umb_polyline_options: 48, struct_size 0, reserved 4, run 8);
     layout!(umb_polyline_outputs: 120, struct_size 0, reserved 4, circle 8, parabola 32, length_parabola 56, symmetric_parabola 80, status 104);
     layout!(umb_run: 40, threads 0, simd 4, vertices 8, vertex_count 16, progress 24, user 32);
+    layout!(umb_section_options: 128, struct_size 0, section 4, weight 8, shared 12, normals 16, directions 48, normal_degree 80, normal_rings 84, run 88);
+    layout!(umb_section_outputs: 72, struct_size 0, reserved 4, curvature 8, status 32, normal 48);
     layout!(umb_status_output: 16, data 0, stride 8);
     layout!(umb_topology_options: 8, struct_size 0, reserved 4);
     layout!(umb_topology_stats: 152, struct_size 0, reserved 4, vertex_count 8, face_count 16, corner_count 24, edge_count 32, boundary_edges 40, non_manifold_edges 48, winding_edges 56, isolated_vertices 64, boundary_vertices 72, non_manifold_vertices 80, degenerate_faces 88, ignored_faces 96, duplicate_faces 104, component_count 112, boundary_loops 120, euler_characteristic 128, max_valence 136, bytes 144);

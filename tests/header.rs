@@ -44,7 +44,7 @@ fn header_has_the_crate_version() {
 #[test]
 fn every_function_of_the_library_is_declared() {
     let header = std::fs::read_to_string(root().join("include/umbilic.h")).unwrap();
-    let sources = ["status", "topology", "normals", "polyline", "version"]
+    let sources = ["status", "topology", "normals", "sections", "curvature", "polyline", "version"]
         .map(|module| std::fs::read_to_string(root().join(format!("src/capi/{module}.rs"))).unwrap());
     let mut functions = 0;
     for line in sources.iter().flat_map(|source| source.lines()) {

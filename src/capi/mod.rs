@@ -10,16 +10,20 @@
 // The contracts are in the header's words, on each function.
 #![allow(clippy::missing_safety_doc)]
 
+mod curvature;
 mod guard;
 mod normals;
 mod polyline;
+mod sections;
 mod status;
 mod topology;
 mod types;
 mod version;
 
+pub use curvature::*;
 pub use normals::*;
 pub use polyline::*;
+pub use sections::*;
 pub use status::*;
 pub use topology::*;
 pub use types::*;

@@ -160,7 +160,7 @@ pub unsafe extern "C" fn umb_vertex_normals(
             let outputs = vertex_outputs(outputs, topology.vertex_count())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals(topology, &points, weight(&options)?, run, &outputs)
+            vertex_normals(topology, &points, weight(options.weight, options.degree, options.rings)?, run, &outputs)
         })
     }
 }
@@ -194,7 +194,13 @@ pub unsafe extern "C" fn umb_vertex_normals_from_faces(
             let outputs = vertex_outputs(outputs, points.len())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals_from_faces(&faces, &points, weight(&options)?, run, &outputs)
+            vertex_normals_from_faces(
+                &faces,
+                &points,
+                weight(options.weight, options.degree, options.rings)?,
+                run,
+                &outputs,
+            )
         })
     }
 }
@@ -263,8 +269,9 @@ unsafe fn vertex_outputs<'a>(
     }
 }
 
-fn weight(options: &umb_normal_options) -> Result<Weight, Error> {
-    Ok(match options.weight {
+/// A weight, and the options of a jet in case that is it.
+pub(super) fn weight(weight: umb_weight, degree: u32, rings: u32) -> Result<Weight, Error> {
+    Ok(match weight {
         UMB_WEIGHT_CONFORMAL => Weight::Conformal,
         UMB_WEIGHT_UNIFORM => Weight::Uniform,
         UMB_WEIGHT_ANGLE => Weight::Angle,
@@ -279,10 +286,7 @@ fn weight(options: &umb_normal_options) -> Result<Weight, Error> {
             let small = |what, value: u32| {
                 u8::try_from(value).map_err(|_| Error::UnknownConstant { what, value: value as u64 })
             };
-            Weight::Jet(JetOptions {
-                degree: small("degree", options.degree)?,
-                rings: small("rings", options.rings)?,
-            })
+            Weight::Jet(JetOptions { degree: small("degree", degree)?, rings: small("rings", rings)? })
         }
         value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
     })

@@ -249,6 +249,30 @@ pub unsafe extern "C" fn umb_topology_get_stats(
     }
 }
 
+/// Where each vertex's ring starts in the ring array, and the end of the last: `#V + 1` numbers, in the topology's memory;
+/// null if `topology` is.
+///
+/// The ring of a vertex holds its neighbours fan after fan, each counter-clockwise: in a closed fan one for each of its faces,
+/// in an open one one more (see `umb_topology_fan`).
+///
+/// @param topology the handle
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn umb_topology_ring_offsets(topology: *const umb_topology) -> *const u32 {
+    // SAFETY: null or a handle.
+    unsafe { topology.as_ref() }.map_or(std::ptr::null(), |topology| topology.0.ring_offsets().as_ptr())
+}
+
+/// The ring array: the neighbours of all vertices, in the topology's memory; null if `topology` is.
+///
+/// @param topology the handle
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn umb_topology_ring_neighbours(topology: *const umb_topology) -> *const u32 {
+    // SAFETY: null or a handle.
+    unsafe { topology.as_ref() }.map_or(std::ptr::null(), |topology| topology.0.ring_neighbours().as_ptr())
+}
+
 /// The number of edges at a vertex. Constant time at a manifold vertex; at one with several fans a copy of its ring is
 /// sorted.
 ///

@@ -149,6 +149,10 @@ versioned! {
     umb_face_options: 48, 32;
     umb_normal_outputs: 72, 48;
     umb_face_outputs: 72, 48;
+    umb_curvature_options: 112, 84;
+    umb_curvature_outputs: 384, 256;
+    umb_section_options: 128, 88;
+    umb_section_outputs: 72, 48;
     umb_polyline_options: 48, 32;
     umb_polyline_outputs: 120, 80;
 }

@@ -4,6 +4,39 @@
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), #type)
 #define OFFSET(type, field, offset) _Static_assert(offsetof(type, field) == (offset), #type "." #field)
 
+SIZE(umb_curvature_options, 112);
+OFFSET(umb_curvature_options, struct_size, 0);
+OFFSET(umb_curvature_options, method, 4);
+OFFSET(umb_curvature_options, section, 8);
+OFFSET(umb_curvature_options, weight, 12);
+OFFSET(umb_curvature_options, radius, 16);
+OFFSET(umb_curvature_options, degree, 24);
+OFFSET(umb_curvature_options, rings, 28);
+OFFSET(umb_curvature_options, normal_degree, 32);
+OFFSET(umb_curvature_options, normal_rings, 36);
+OFFSET(umb_curvature_options, normals, 40);
+OFFSET(umb_curvature_options, run, 72);
+
+SIZE(umb_curvature_outputs, 384);
+OFFSET(umb_curvature_outputs, struct_size, 0);
+OFFSET(umb_curvature_outputs, reserved, 4);
+OFFSET(umb_curvature_outputs, k1, 8);
+OFFSET(umb_curvature_outputs, k2, 32);
+OFFSET(umb_curvature_outputs, direction1, 56);
+OFFSET(umb_curvature_outputs, direction2, 80);
+OFFSET(umb_curvature_outputs, mean, 104);
+OFFSET(umb_curvature_outputs, gaussian, 128);
+OFFSET(umb_curvature_outputs, mean_normal, 152);
+OFFSET(umb_curvature_outputs, area, 176);
+OFFSET(umb_curvature_outputs, integrated_mean, 200);
+OFFSET(umb_curvature_outputs, integrated_gaussian, 224);
+OFFSET(umb_curvature_outputs, shape_index, 248);
+OFFSET(umb_curvature_outputs, curvedness, 272);
+OFFSET(umb_curvature_outputs, residual, 296);
+OFFSET(umb_curvature_outputs, condition, 320);
+OFFSET(umb_curvature_outputs, normal, 344);
+OFFSET(umb_curvature_outputs, status, 368);
+
 SIZE(umb_error, 256);
 OFFSET(umb_error, struct_size, 0);
 OFFSET(umb_error, status, 4);
@@ -95,6 +128,24 @@ OFFSET(umb_run, vertex_count, 16);
 OFFSET(umb_run, progress, 24);
 OFFSET(umb_run, user, 32);
 
+SIZE(umb_section_options, 128);
+OFFSET(umb_section_options, struct_size, 0);
+OFFSET(umb_section_options, section, 4);
+OFFSET(umb_section_options, weight, 8);
+OFFSET(umb_section_options, shared, 12);
+OFFSET(umb_section_options, normals, 16);
+OFFSET(umb_section_options, directions, 48);
+OFFSET(umb_section_options, normal_degree, 80);
+OFFSET(umb_section_options, normal_rings, 84);
+OFFSET(umb_section_options, run, 88);
+
+SIZE(umb_section_outputs, 72);
+OFFSET(umb_section_outputs, struct_size, 0);
+OFFSET(umb_section_outputs, reserved, 4);
+OFFSET(umb_section_outputs, curvature, 8);
+OFFSET(umb_section_outputs, status, 32);
+OFFSET(umb_section_outputs, normal, 48);
+
 SIZE(umb_status_output, 16);
 OFFSET(umb_status_output, data, 0);
 OFFSET(umb_status_output, stride, 8);
@@ -124,5 +175,3 @@ OFFSET(umb_topology_stats, boundary_loops, 120);
 OFFSET(umb_topology_stats, euler_characteristic, 128);
 OFFSET(umb_topology_stats, max_valence, 136);
 OFFSET(umb_topology_stats, bytes, 144);
-
-int main(void) { return 0; }
