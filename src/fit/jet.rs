@@ -16,7 +16,8 @@
 //! The normal's error is of order `d` in the size of the neighbourhood, the curvatures' of order `d − 1` (their Theorem 1).
 //!
 //! Input: neighbourhoods of any kind of mesh; how the points hang together does not matter.
-//! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, and where its normal is more than
+//! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, where with the vertex they are
+//! no more than its coefficients, and where its normal is more than
 //! 75° from the vertex's: then the neighbourhood is no height field over the plane that was found (it wraps around a thin
 //! tube, or around the whole of a small component). [`JetFit`] says what becomes of these.
 //! Cost: that of [`solve`] for as many unknowns, and two passes over the points.
@@ -86,7 +87,7 @@ impl JetFit {
     /// neighbourhood should be tried, which is never so if this is the `last`.
     ///
     /// In this order: the jet asked for; with heights along the vertex's normal instead, if its own plane is what is wrong;
-    /// in wider neighbourhoods; of lower degree, in the widest; the vertex's normal, without curvature; nothing.
+    /// in wider neighbourhoods; of lower degree, in as few rings as have the points; the vertex's normal, without curvature; nothing.
     #[inline(never)]
     pub(crate) fn alone(&self, patch: &Patch<'_, f64>, last: bool, scratch: &mut [f64]) -> Option<(Jet<f64>, u8)> {
         let has_normal = patch.normal.squared() > 0.0;
@@ -95,11 +96,15 @@ impl JetFit {
         }
         for degree in (1..=self.degree).rev() {
             let fallback = if degree < self.degree { status::FALLBACK } else { 0 };
-            let jet = self.fit(degree, patch, Axes::principal(patch), scratch);
+            // Less needs fewer points, and the nearest are best.
+            let inner = patch.with_at_least(if degree < self.degree { coefficients(degree) } else { patch.len() });
+            let patch = &inner;
+            let axes = Axes::principal(patch);
+            let jet = self.fit(degree, patch, axes, scratch);
             if jet.trusted {
                 return Some((jet, fallback));
             }
-            if jet.determined {
+            if jet.determined || axes.z.dot(patch.normal) < AGREES {
                 let jet = self.fit(degree, patch, Axes::about(patch.normal), scratch);
                 if jet.trusted {
                     return Some((jet, status::FALLBACK));
@@ -189,8 +194,7 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
         let (alpha, gamma) = (inverse_root_e, e * inverse_root_e * inverse_w);
         let beta = -(p * q * inverse_root_e * inverse_w);
         let two = V::constant(2.0);
-        let second = [two * u[3 % K], u[4 % K], two * u[5 % K]];
-        let [xx, xy, yy] = second.map(|derivative| -(derivative * inverse_w));
+        let (xx, xy, yy) = (-(two * u[3 % K] * inverse_w), -(u[4 % K] * inverse_w), -(two * u[5 % K] * inverse_w));
         shape = [
             alpha * alpha * xx,
             alpha * (beta * xx + gamma * xy),
@@ -199,18 +203,10 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     }
     // A vertex without a normal has nothing to tell the sides of the surface by.
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
-    let trusted = solution.trusted.and(agrees);
-    Jet {
-        normal,
-        x,
-        y: normal.cross(x),
-        shape,
-        height: u[0],
-        residual,
-        condition,
-        trusted,
-        determined: solution.trusted,
-    }
+    // As many points as coefficients would be met exactly, noise and all.
+    let determined = solution.trusted.and(V::constant((K - 1) as f64).lt(patch.count));
+    let trusted = determined.and(agrees);
+    Jet { normal, x, y: normal.cross(x), shape, height: u[0], residual, condition, trusted, determined }
 }
 
 #[cfg(test)]
@@ -363,7 +359,7 @@ mod tests {
         let tube: Vec<f64> = (0..24)
             .filter(|i| *i != 12)
             .flat_map(|i| {
-                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14);
+                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14159);
                 [along, 2.0 * angle.sin(), 2.0 * angle.cos() - 2.0]
             })
             .collect();
@@ -381,4 +377,50 @@ mod tests {
             assert_eq!((jet.normal.x, jet.normal.y, jet.normal.z), (0.0, 0.0, 0.0));
         }
     }
+
+    // TEMPORARY-BEGIN
+    #[test]
+    #[ignore]
+    fn dump_for_cgal() {
+        let mut next = random(77);
+        let mut out = String::new();
+        for round in 0..4000 {
+            let degree = 1 + round % 4;
+            let axes = Axes::about(unit(Vector3 { x: next(), y: next(), z: next() }));
+            let c: Vec<f64> = (0..6).map(|_| next()).collect();
+            let size = 10f64.powf(2.0 * next());
+            let height = |x: f64, y: f64| {
+                0.5 * c[0] * x * x
+                    + 0.5 * c[1] * x * y
+                    + 0.5 * c[2] * y * y
+                    + 0.2 * c[3] * (2.0 * x).sin()
+                    + 0.3 * c[4] * x * y * y
+                    + 0.2 * c[5]
+            };
+            let points: Vec<f64> = (0..super::coefficients(degree) + 8 + round % 30)
+                .flat_map(|_| {
+                    let (x, y) = (next(), next());
+                    let p = axes.vector(x, y, height(x, y) - height(0.0, 0.0) + 0.01 * next());
+                    [p.x * size, p.y * size, p.z * size]
+                })
+                .collect();
+            let patch = Patch::of_points(&points, axes.z);
+            let fit = jet_fit(degree as u8);
+            let jet = fit.lanes(&patch, &mut vec![0.0; fit.scratch(patch.len())]);
+            if !jet.trusted || jet.condition > 1e3 {
+                continue;
+            }
+            let (k1, k2, d) = principal(&jet);
+            out += &format!("{} {}\n0 0 0\n", patch.len() + 1, degree);
+            for p in points.chunks(3) {
+                out += &format!("{:?} {:?} {:?}\n", p[0], p[1], p[2]);
+            }
+            out += &format!(
+                "{:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}\n",
+                jet.normal.x, jet.normal.y, jet.normal.z, k1, k2, d.x, d.y, d.z
+            );
+        }
+        std::fs::write(std::env::var("CGAL_OUT").unwrap(), out).unwrap();
+    }
+    // TEMPORARY-END
 }
