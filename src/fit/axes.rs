@@ -171,9 +171,9 @@ mod tests {
         let patch = Patch::of_points(&flat, Vector3 { x, y, z });
         let axes = Axes::principal(&patch);
         for (a, b) in [(axes.x, axes.y), (axes.y, axes.z), (axes.z, axes.x)] {
-            assert!((a.squared() - 1.0).abs() < 1e-15 && a.dot(b).abs() < 1e-15, "{points:?}");
+            assert!((a.squared() - 1.0).abs() < 2e-15 && a.dot(b).abs() < 2e-15, "{points:?}");
         }
-        assert!((axes.x.cross(axes.y).dot(axes.z) - 1.0).abs() < 1e-15);
+        assert!((axes.x.cross(axes.y).dot(axes.z) - 1.0).abs() < 2e-15);
         assert!(axes.z.dot(patch.normal) >= -1e-15);
         // Eigenvectors: the covariance leaves their directions alone, and none has less variance than z.
         let [xx, xy, xz, yy, yz, zz] = covariance(&patch);
