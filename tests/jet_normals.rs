@@ -148,7 +148,7 @@ fn normals_are_those_of_the_oracle() {
                 }
                 let centre = mesh.positions[vertex];
                 let points: Vec<Vector> = around.iter().map(|&v| sub(mesh.positions[v as usize], centre)).collect();
-                if around.len() < unknowns + 6 || around.len() > 200 {
+                if around.len() < unknowns + 3 || around.len() > 200 {
                     continue;
                 }
                 let expected = fitted(&points, jet.0).unwrap();
@@ -157,8 +157,7 @@ fn normals_are_those_of_the_oracle() {
                 assert!(difference < 1e-8, "{}, {jet:?}, vertex {vertex}: {difference:e}", mesh.name);
                 compared += 1;
             }
-            // At degree 1 and one ring, seven points are too few for this comparison at many vertices.
-            assert!(compared * 5 > mesh.positions.len(), "{}, {jet:?}: {compared}", mesh.name);
+            assert!(compared * 3 > mesh.positions.len(), "{}, {jet:?}: {compared}", mesh.name);
         }
     }
 }
@@ -266,11 +265,12 @@ fn any_size() {
             let found = of_mesh(&mesh.mapped(|p| scale(p, 2f64.powi(power))), jet);
             assert!(found.normal == expected.normal && found.status == expected.status, "{jet:?}, 2^{power}");
         }
-        for size in [1e-320, 1e-310, 1e-300, 1e300, 1e307, f64::MAX] {
-            check(&mesh.mapped(|p| scale(p, size)), jet);
+        for size in [1e-320, 1e-310, 1e-300, 1e300, 1e307, 0.9 * f64::MAX] {
+            let found = of_mesh(&mesh.mapped(|p| scale(p, size)), jet).normal;
+            assert!(found.iter().all(|normal| (length(*normal) - 1.0).abs() < 1e-15), "{jet:?}, {size:e}");
         }
         // The largest numbers there are: their differences overflow.
-        for size in [1e300, 1e307, f64::MAX] {
+        for size in [1e300, 1e307, 0.9 * f64::MAX] {
             let large = of_mesh(&mesh.mapped(|p| scale(p, size)), jet);
             for vertex in 0..mesh.positions.len() {
                 let difference = largest_difference(large.normal[vertex], expected.normal[vertex]);
@@ -386,13 +386,14 @@ fn statuses() {
         unit([-0.4 * x - 0.1 * y, -0.1 * x, 1.0])
     };
     assert!(largest_difference(found.normal[0], exact(0)) < 2e-3);
-    // A lone triangle is a plane, which is less than was asked for; so is a tetrahedron's corner.
+    // A lone triangle has no more points than a plane has coefficients.
     let triangle = Mesh::new("triangle", vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]], vec![vec![0, 1, 2]]);
-    for (degree, fallback) in [(1, 0), (2, UMB_VERTEX_FALLBACK), (4, UMB_VERTEX_FALLBACK)] {
+    for degree in 1..=4 {
         let found = of_mesh(&triangle, (degree, 2));
-        assert_eq!(found.status, [UMB_VERTEX_BOUNDARY | fallback; 3]);
+        assert_eq!(found.status, [UMB_VERTEX_BOUNDARY | UMB_VERTEX_FALLBACK; 3]);
         assert_eq!(found.normal, [[0.0, 0.0, 1.0]; 3]);
     }
+    // Small components are too little for what was asked for, and still have good normals.
     for level in 0..2 {
         let small = mesh::tetrahedron_sphere(level);
         let found = of_mesh(&small, (3, 2));
@@ -513,7 +514,11 @@ fn progress_runs_from_0_to_1_and_can_cancel() {
     for (cancel_at, expected) in [(2.0, UMB_OK), (0.0, UMB_ERROR_CANCELLED), (0.5, UMB_ERROR_CANCELLED)] {
         let mut seen = Seen { last: 0.0, calls: 0, cancel_at };
         let user = (&raw mut seen).cast();
-        let status = call(&mesh, |options| (options.run.progress, options.run.user) = (Some(progress), user)).0;
+        let set = |options: &mut umb_normal_options| {
+            options.run.progress = Some(progress);
+            options.run.user = user;
+        };
+        let status = call(&mesh, set).0;
         assert_eq!(status, expected);
         assert!(expected != UMB_OK || (seen.last == 1.0 && seen.calls > 10));
     }

@@ -13,13 +13,13 @@
 //! have no section: 0, and the status says so. Where a fold makes a plane meet it more than once on a side, the first crossing
 //! in ring order counts. Cost: eight products a corner, and three points' worth for each direction.
 
-use super::ring::own_normals;
+use super::ring::{load_vectors, own_normals};
 use super::section::ThreePoints;
 use super::vertex::{VertexNormals, unit_normals};
 use super::{Section, SectionOutputs, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
+use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::Topology;
 use crate::view::Points;
@@ -181,15 +181,8 @@ impl DirectionSections<'_> {
     /// The directions of a block's vertices, in the round `index`.
     #[inline(always)]
     fn load<V: Vector>(&self, vertices: &[u32], index: usize) -> Vector3<V> {
-        let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
-        for lane in 0..V::LANES {
-            let vertex = *vertices.get(lane).unwrap_or(&vertices[0]) as usize;
-            let direction = self.directions.get(if self.shared.is_some() { index } else { vertex });
-            for axis in 0..3 {
-                lanes[axis][lane] = V::Scalar::from_f64(direction[axis]);
-            }
-        }
-        Vector3::from_lanes(&lanes)
+        let place = |vertex: usize| if self.shared.is_some() { index } else { vertex };
+        load_vectors(vertices, |vertex| self.directions.get(place(vertex)).to_array())
     }
 
     #[inline(always)]

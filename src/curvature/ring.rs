@@ -2,7 +2,7 @@
 
 use super::outputs::{CurvatureOutputs, Local, Statuses};
 use super::principal::Frame;
-use crate::simd::{MAX_LANES, Vector, Vector3};
+use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans};
 use crate::topology::status;
 
@@ -43,25 +43,27 @@ pub(crate) struct Curvatures<'a, E> {
     pub estimator: E,
 }
 
-/// The normals of a block's vertices; lanes beyond them repeat the first.
+/// A vector for each of a block's vertices; lanes beyond them repeat the first.
 #[inline(always)]
-pub(crate) fn own_normals<V: Vector>(normals: &[[f64; 3]], vertices: &[u32]) -> Vector3<V> {
-    use crate::simd::Real;
+pub(crate) fn load_vectors<V: Vector>(vertices: &[u32], vector: impl Fn(usize) -> [f64; 3]) -> Vector3<V> {
     let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
     for lane in 0..V::LANES {
-        let normal = normals[*vertices.get(lane).unwrap_or(&vertices[0]) as usize];
-        for axis in 0..3 {
-            lanes[axis][lane] = V::Scalar::from_f64(normal[axis]);
-        }
+        let [x, y, z] = vector(*vertices.get(lane).unwrap_or(&vertices[0]) as usize).map(V::Scalar::from_f64);
+        (lanes[0][lane], lanes[1][lane], lanes[2][lane]) = (x, y, z);
     }
     Vector3::from_lanes(&lanes)
+}
+
+/// The normals of a block's vertices.
+#[inline(always)]
+pub(crate) fn own_normals<V: Vector>(normals: &[[f64; 3]], vertices: &[u32]) -> Vector3<V> {
+    load_vectors(vertices, |vertex| normals[vertex])
 }
 
 impl<E: RingEstimator> Curvatures<'_, E> {
     /// Whether a vertex whose normal this is can have a result.
     #[inline(always)]
     fn normals_there<V: Vector>(normal: Vector3<V>) -> u32 {
-        use crate::simd::Mask;
         if E::NORMAL { V::zero().lt(normal.squared()).bits() } else { u32::MAX }
     }
 }

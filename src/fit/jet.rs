@@ -16,7 +16,8 @@
 //! The normal's error is of order `d` in the size of the neighbourhood, the curvatures' of order `d − 1` (their Theorem 1).
 //!
 //! Input: neighbourhoods of any kind of mesh; how the points hang together does not matter.
-//! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, and where its normal is more than
+//! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, where with the vertex they are
+//! no more than its coefficients, and where its normal is more than
 //! 75° from the vertex's: then the neighbourhood is no height field over the plane that was found (it wraps around a thin
 //! tube, or around the whole of a small component). [`JetFit`] says what becomes of these.
 //! Cost: that of [`solve`] for as many unknowns, and two passes over the points.
@@ -83,7 +84,7 @@ impl JetFit {
     /// neighbourhood should be tried, which is never so if this is the `last`.
     ///
     /// In this order: the jet asked for; with heights along the vertex's normal instead, if its own plane is what is wrong;
-    /// in wider neighbourhoods; of lower degree, in the widest; the vertex's normal, without curvature; nothing.
+    /// in wider neighbourhoods; of lower degree, in as few rings as have the points; the vertex's normal, without curvature; nothing.
     #[inline(never)]
     pub(crate) fn alone(&self, patch: &Patch<'_, f64>, last: bool, scratch: &mut [f64]) -> Option<(Jet<f64>, u8)> {
         let has_normal = patch.normal.squared() > 0.0;
@@ -92,11 +93,15 @@ impl JetFit {
         }
         for degree in (1..=self.degree).rev() {
             let fallback = if degree < self.degree { status::FALLBACK } else { 0 };
-            let jet = self.fit(degree, patch, Axes::principal(patch), scratch);
+            // Less needs fewer points, and the nearest are best.
+            let inner = patch.with_at_least(if degree < self.degree { coefficients(degree) } else { patch.len() });
+            let patch = &inner;
+            let axes = Axes::principal(patch);
+            let jet = self.fit(degree, patch, axes, scratch);
             if jet.trusted {
                 return Some((jet, fallback));
             }
-            if jet.determined {
+            if jet.determined || axes.z.dot(patch.normal) < AGREES {
                 let jet = self.fit(degree, patch, Axes::about(patch.normal), scratch);
                 if jet.trusted {
                     return Some((jet, status::FALLBACK));
@@ -186,8 +191,7 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
         let (alpha, gamma) = (inverse_root_e, e * inverse_root_e * inverse_w);
         let beta = -(p * q * inverse_root_e * inverse_w);
         let two = V::constant(2.0);
-        let second = [two * u[3 % K], u[4 % K], two * u[5 % K]];
-        let [xx, xy, yy] = second.map(|derivative| -(derivative * inverse_w));
+        let (xx, xy, yy) = (-(two * u[3 % K] * inverse_w), -(u[4 % K] * inverse_w), -(two * u[5 % K] * inverse_w));
         shape = [
             alpha * alpha * xx,
             alpha * (beta * xx + gamma * xy),
@@ -196,8 +200,10 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     }
     // A vertex without a normal has nothing to tell the sides of the surface by.
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
-    let trusted = solution.trusted.and(agrees);
-    Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined: solution.trusted }
+    // As many points as coefficients would be met exactly, noise and all.
+    let determined = solution.trusted.and(V::constant((K - 1) as f64).lt(patch.count));
+    let trusted = determined.and(agrees);
+    Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined }
 }
 
 #[cfg(test)]
@@ -350,7 +356,7 @@ mod tests {
         let tube: Vec<f64> = (0..24)
             .filter(|i| *i != 12)
             .flat_map(|i| {
-                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14);
+                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14159);
                 [along, 2.0 * angle.sin(), 2.0 * angle.cos() - 2.0]
             })
             .collect();

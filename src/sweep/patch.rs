@@ -91,6 +91,8 @@ pub(crate) struct Patch<'a, V> {
     pub count: V,
     /// Every lane has at least so many points.
     pub full: usize,
+    /// How many points there are up to each ring, of a vertex alone.
+    rings: &'a [usize],
 }
 
 impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
@@ -98,7 +100,7 @@ impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
     #[cfg(test)]
     pub(crate) fn of_points(points: &'a [V], normal: Vector3<V>) -> Self {
         let count = points.len() / 3;
-        Patch { points, normals: &[], normal, count: V::constant(count as f64), full: count }
+        Patch { points, normals: &[], normal, count: V::constant(count as f64), full: count, rings: &[] }
     }
 
     /// The largest number of points of a lane; the vertex itself, which is at the origin, is not among them.
@@ -117,6 +119,13 @@ impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
     #[inline(always)]
     pub fn neighbour_normal(&self, index: usize) -> Vector3<V> {
         row(self.normals, index)
+    }
+
+    /// The fewest rings that have so many points, or all there are; of a vertex alone.
+    pub fn with_at_least(&self, points: usize) -> Self {
+        let count = self.rings.iter().copied().find(|&count| count >= points).unwrap_or(self.len());
+        let normals = if self.normals.is_empty() { self.normals } else { &self.normals[..3 * count] };
+        Patch { points: &self.points[..3 * count], normals, count: V::constant(count as f64), full: count, ..*self }
     }
 
     /// 1 in the lanes that have the point, 0 in the others.
@@ -361,7 +370,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         }
         let scale = fit_to_unit(points);
         let normal = Vector3::from_lanes(&own);
-        let patch = Patch { points, normals, normal, count: V::from_lanes(&counts), full };
+        let patch = Patch { points, normals, normal, count: V::from_lanes(&counts), full, rings: &[] };
         self.quantity.block(&vertices[..block.len()], &patch, scale, widened, scratch)
     }
 
@@ -372,7 +381,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         loop {
             let last =
                 neighbourhood.is_complete() || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
-            if self.alone_in(vertex, neighbourhood.vertices(), widened, last, numbers) || last {
+            if self.alone_in(vertex, neighbourhood, widened, last, numbers) || last {
                 return;
             }
             // If nothing was added, the neighbourhood is complete and the next attempt the last.
@@ -380,7 +389,15 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         }
     }
 
-    fn alone_in(&self, vertex: u32, found: &[u32], widened: bool, last: bool, numbers: &mut [f64]) -> bool {
+    fn alone_in(
+        &self,
+        vertex: u32,
+        neighbourhood: &Neighbourhood,
+        widened: bool,
+        last: bool,
+        numbers: &mut [f64],
+    ) -> bool {
+        let found = neighbourhood.vertices();
         let (points, rest) = numbers.split_at_mut(3 * found.len());
         let (normals, scratch) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * found.len() } else { 0 });
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact for them.
@@ -396,7 +413,10 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         let scale = fit_to_unit(points);
         let [x, y, z] = self.quantity.normals()[vertex as usize];
         let count = found.len();
-        let patch = Patch { points, normals, normal: Vector3 { x, y, z }, count: count as f64, full: count };
+        let mut rings = [count; MAX_RINGS + 1];
+        rings.iter_mut().zip(neighbourhood.counts()).for_each(|(ring, count)| *ring = count);
+        let normal = Vector3 { x, y, z };
+        let patch = Patch { points, normals, normal, count: count as f64, full: count, rings: &rings };
         self.quantity.alone(vertex as usize, &patch, scale * factor, widened, last, scratch)
     }
 

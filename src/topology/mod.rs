@@ -1,4 +1,5 @@
-//! Topology: the one-rings of all vertices, built once from faces alone and reused while positions move.
+//! Topology: the one-rings of all vertices, built once from faces alone and reused while positions move, and the
+//! neighbourhoods of several rings that are gathered from them.
 
 mod build;
 mod closure;

@@ -78,7 +78,7 @@ impl Neighbourhood {
             self.gather = 1;
         }
         (self.count, self.rings, self.looks, self.full) = (0, 0, 0, false);
-        self.insert(vertex);
+        self.count = self.insert(vertex, 0);
         self.ends[0] = 1;
         while self.rings < rings && self.widen(topology) {}
         self.vertices()
@@ -117,6 +117,11 @@ impl Neighbourhood {
         self.rings
     }
 
+    /// How many vertices there are up to each ring, without the vertex itself; the zeroth ring has none.
+    pub(crate) fn counts(&self) -> impl Iterator<Item = usize> {
+        self.ends[..=self.rings].iter().map(|end| end - 1)
+    }
+
     /// The vertices of a ring, counted from 1.
     pub(crate) fn ring(&self, ring: usize) -> &[u32] {
         &self.members[self.ends[ring - 1]..self.ends[ring]]
@@ -138,11 +143,18 @@ impl Neighbourhood {
 
     #[inline(always)]
     fn expand_triangles(&mut self, ring: &[u32]) {
+        // In a register while it grows.
+        let mut count = self.count;
         if ring.len() <= MOST_ENTRIES {
-            ring.iter().for_each(|&neighbour| self.insert(neighbour));
+            for &neighbour in ring {
+                count = self.insert(neighbour, count);
+            }
         } else {
-            spaced(ring.len(), MOST_ENTRIES).for_each(|entry| self.insert(ring[entry]));
+            for entry in spaced(ring.len(), MOST_ENTRIES) {
+                count = self.insert(ring[entry], count);
+            }
         }
+        self.count = count;
         self.note(ring.len().min(MOST_ENTRIES));
     }
 
@@ -150,15 +162,17 @@ impl Neighbourhood {
         let range = topology.rings().ring_range(vertex);
         let ring = topology.ring(vertex);
         for entry in spaced(ring.len(), MOST_ENTRIES) {
-            self.insert(ring[entry]);
+            let mut count = self.insert(ring[entry], self.count);
             let face = polygons.corner_face(range.start + entry);
             // The corners of a triangle are neighbours along edges.
             let corners = if face == NO_FACE { &[] } else { polygons.face(face as usize) };
             if corners.len() > 3 {
-                spaced(corners.len(), MOST_CORNERS).for_each(|corner| self.insert(corners[corner]));
-                self.note(corners.len().min(MOST_CORNERS));
+                for corner in spaced(corners.len(), MOST_CORNERS) {
+                    count = self.insert(corners[corner], count);
+                }
             }
-            self.note(1);
+            self.count = count;
+            self.note(1 + corners.len().min(MOST_CORNERS));
             if self.full {
                 break;
             }
@@ -175,10 +189,10 @@ impl Neighbourhood {
         }
     }
 
-    /// Adds a vertex, if it is not in yet. Written so that nothing is branched on but collisions in the table, which are
+    /// Adds a vertex to `count` members, if it is not in yet; answers with their number then. Written so that nothing is branched on but collisions in the table, which are
     /// rare: whether a vertex is new is what a CPU cannot guess.
     #[inline(always)]
-    fn insert(&mut self, vertex: u32) {
+    fn insert(&mut self, vertex: u32, count: usize) -> usize {
         let entry = (self.gather as u64) << 32 | vertex as u64;
         let mut slot = (vertex.wrapping_mul(0x9e37_79b1) >> SHIFT) as usize;
         let mut found = self.table[slot];
@@ -187,8 +201,8 @@ impl Neighbourhood {
             found = self.table[slot];
         }
         self.table[slot] = entry;
-        self.members[self.count] = vertex;
-        self.count += (found != entry) as usize;
+        self.members[count] = vertex;
+        count + (found != entry) as usize
     }
 }
 
