@@ -47,9 +47,10 @@ pub(crate) struct Curvatures<'a, E> {
 #[inline(always)]
 pub(crate) fn load_vectors<V: Vector>(vertices: &[u32], vector: impl Fn(usize) -> [f64; 3]) -> Vector3<V> {
     let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
-    for lane in 0..V::LANES {
-        let [x, y, z] = vector(*vertices.get(lane).unwrap_or(&vertices[0]) as usize).map(V::Scalar::from_f64);
-        (lanes[0][lane], lanes[1][lane], lanes[2][lane]) = (x, y, z);
+    let [xs, ys, zs] = &mut lanes;
+    for (lane, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate().take(V::LANES) {
+        let vector = vector(*vertices.get(lane).unwrap_or(&vertices[0]) as usize);
+        [*x, *y, *z] = vector.map(V::Scalar::from_f64);
     }
     Vector3::from_lanes(&lanes)
 }
