@@ -34,6 +34,7 @@ const AGREES: f64 = 0.25;
 
 /// The surface at a vertex.
 #[derive(Clone, Copy)]
+#[allow(dead_code, reason = "the curvatures are to come")]
 pub(crate) struct Jet<V: Vector> {
     /// Unit normal.
     pub normal: Vector3<V>,
