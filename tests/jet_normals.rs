@@ -48,9 +48,8 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
         right.swap(k, pivot);
         for row in k + 1..n {
             let factor = matrix[row][k] / matrix[k][k];
-            for column in k..n {
-                matrix[row][column] -= factor * matrix[k][column];
-            }
+            let pivot = matrix[k].clone();
+            matrix[row].iter_mut().zip(pivot).for_each(|(x, pivot)| *x -= factor * pivot);
             right[row] -= factor * right[k];
         }
     }
@@ -139,7 +138,7 @@ fn normals_are_those_of_the_oracle() {
         for jet in [(1, 1), (1, 2), (2, 2), (3, 2), (3, 3), (4, 3)] {
             let found = of_mesh(mesh, jet);
             let mut compared = 0;
-            for vertex in 0..mesh.positions.len() {
+            for (vertex, &side) in area.iter().enumerate() {
                 let around = neighbourhood(&faces_of, mesh, vertex, jet.1);
                 let unknowns = ((jet.0 + 1) * (jet.0 + 2) / 2) as usize;
                 if found.status[vertex] & (SIMPLER | UMB_VERTEX_WIDENED) != 0 {
@@ -152,7 +151,7 @@ fn normals_are_those_of_the_oracle() {
                     continue;
                 }
                 let expected = fitted(&points, jet.0).unwrap();
-                let expected = if dot(expected, area[vertex]) < 0.0 { scale(expected, -1.0) } else { expected };
+                let expected = if dot(expected, side) < 0.0 { scale(expected, -1.0) } else { expected };
                 let difference = largest_difference(found.normal[vertex], expected);
                 assert!(difference < 1e-8, "{}, {jet:?}, vertex {vertex}: {difference:e}", mesh.name);
                 compared += 1;

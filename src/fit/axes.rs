@@ -15,12 +15,18 @@ use crate::sweep::Patch;
 
 /// Right-handed and orthonormal.
 #[derive(Clone, Copy)]
-pub(crate) struct Axes<V> {
+pub(crate) struct Axes<V: Vector> {
     pub x: Vector3<V>,
     pub y: Vector3<V>,
     /// The direction of heights.
     pub z: Vector3<V>,
+    /// Lanes where `z` stands out from the other two, and is more than chance.
+    pub distinct: V::Mask,
 }
+
+/// The variance along the principal `z` must be below this part of the next larger one. Across a right-angled crease it is a
+/// quarter; around a tube, and in a small component that is gathered whole, it is anything up to 1.
+const DISTINCT: f64 = 0.75;
 
 /// Off-diagonal elements below this part of the trace are rounding.
 const DIAGONAL: f64 = 1.0 / (1u64 << 56) as f64;
@@ -39,7 +45,7 @@ impl<V: Vector<Scalar = f64>> Axes<V> {
         let y = Vector3 { x: b, y: sign + normal.y * normal.y * a, z: -normal.y };
         let exists = V::zero().lt(normal.squared());
         let z = V::select(exists, normal.z, V::one());
-        Axes { x, y, z: Vector3 { z, ..normal } }
+        Axes { x, y, z: Vector3 { z, ..normal }, distinct: V::zero().lt(V::one()) }
     }
 
     /// The principal axes of a patch and the vertex itself, `z` that of least variance, on the side of the vertex's normal.
@@ -66,17 +72,19 @@ impl<V: Vector<Scalar = f64>> Axes<V> {
         // The axis of least variance to the end, the others before it.
         let second = diagonal[1].lt(diagonal[2]);
         let (variance, mut z) = (diagonal[1].min(diagonal[2]), choose(second, axes[1], axes[2]));
-        let mut x = axes[0];
+        let larger = diagonal[1].max(diagonal[2]);
         let first = diagonal[0].lt(variance);
-        x = choose(first, axes[1], x);
+        let x = choose(first, axes[1], axes[0]);
         z = choose(first, axes[0], z);
+        let next = V::select(first, variance, diagonal[0].min(larger));
+        let distinct = variance.min(diagonal[0]).lt(next * V::constant(DISTINCT));
         let against = z.dot(patch.normal).lt(V::zero());
         z = choose(against, Vector3::zero() - z, z);
         // Rounding has left them orthonormal but for a few units in the last place.
         let z = z * (V::one() / z.squared().sqrt());
         let x = x - z * z.dot(x);
         let x = x * (V::one() / x.squared().sqrt());
-        Axes { x, y: z.cross(x), z }
+        Axes { x, y: z.cross(x), z, distinct }
     }
 
     /// A vector's components along the axes.

@@ -17,7 +17,7 @@
 //!
 //! Input: neighbourhoods of any kind of mesh; how the points hang together does not matter.
 //! Degenerate rule: a lane is not trusted where the points do not determine the polynomial, where with the vertex they are
-//! no more than its coefficients, and where its normal is more than
+//! no more than its coefficients, where no direction of least variance stands out, and where its normal is more than
 //! 75° from the vertex's: then the neighbourhood is no height field over the plane that was found (it wraps around a thin
 //! tube, or around the whole of a small component). [`JetFit`] says what becomes of these.
 //! Cost: that of [`solve`] for as many unknowns, and two passes over the points.
@@ -34,6 +34,7 @@ const AGREES: f64 = 0.25;
 
 /// The surface at a vertex.
 #[derive(Clone, Copy)]
+#[allow(dead_code, reason = "the curvatures are to come")]
 pub(crate) struct Jet<V: Vector> {
     /// Unit normal.
     pub normal: Vector3<V>,
@@ -101,7 +102,7 @@ impl JetFit {
             if jet.trusted {
                 return Some((jet, fallback));
             }
-            if jet.determined || axes.z.dot(patch.normal) < AGREES {
+            if jet.determined || !axes.distinct || axes.z.dot(patch.normal) < AGREES {
                 let jet = self.fit(degree, patch, Axes::about(patch.normal), scratch);
                 if jet.trusted {
                     return Some((jet, status::FALLBACK));
@@ -111,7 +112,7 @@ impl JetFit {
                 return None;
             }
         }
-        let Axes { x, y, z: normal } = Axes::about(patch.normal);
+        let Axes { x, y, z: normal, .. } = Axes::about(patch.normal);
         Some((Jet { normal, x, y, ..NO_JET }, status::FALLBACK))
     }
 
@@ -202,7 +203,7 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
     // As many points as coefficients would be met exactly, noise and all.
     let determined = solution.trusted.and(V::constant((K - 1) as f64).lt(patch.count));
-    let trusted = determined.and(agrees);
+    let trusted = determined.and(agrees).and(axes.distinct);
     Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined }
 }
 
