@@ -212,7 +212,7 @@ mod tests {
         };
         for round in 0..4000 {
             let count = 1 + round % 30;
-            let stretch = [1.0, 10f64.powi(-(round as i32 % 17)), 10f64.powi(-(round as i32 % 23))];
+            let stretch = [1.0, 10f64.powi(-(round % 17)), 10f64.powi(-(round % 23))];
             let about = Axes::about({
                 let v = Vector3 { x: next(), y: next(), z: next() };
                 v * (1.0 / v.squared().sqrt())

@@ -354,10 +354,11 @@ mod tests {
         assert_eq!((flags, jet.shape), (status::FALLBACK, [0.0; 3]));
         assert!((jet.normal - normal).squared() < 1e-28);
         // A tube: the direction of least variance is along it, or anywhere across it.
-        let tube: Vec<f64> = (0..24)
+        let tube: Vec<f64> = (0..24i32)
             .filter(|i| *i != 12)
             .flat_map(|i| {
-                let (along, angle) = ((i / 8) as f64 * 0.5 - 0.75 + 0.25, (i % 8 + 4) as f64 * 0.785 - 3.14159);
+                let along = (i / 8) as f64 * 0.5 - 0.5;
+                let angle = (i % 8 - 4) as f64 * std::f64::consts::FRAC_PI_4;
                 [along, 2.0 * angle.sin(), 2.0 * angle.cos() - 2.0]
             })
             .collect();
