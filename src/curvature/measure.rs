@@ -11,12 +11,12 @@
 //! with the power of two that these are, so the size of a mesh costs nothing.
 //! Cost: one pass for the cells, then a few sums for each vertex of each region; 80 bytes a vertex.
 
-use super::outputs::{CurvatureOutputs, Local, Statuses};
+use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::{Frame, Operator};
 use super::ring::{Curvatures, RingEstimator, own_normals};
 use crate::error::{Error, reserved};
 use crate::parallel::{Run, for_each_chunk, thread_count};
-use crate::simd::{Vector, Vector3};
+use crate::simd::{MAX_LANES, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Neighbourhood, Topology, closure, status};
 use crate::view::{Output, Points, zeroed};
@@ -237,8 +237,17 @@ pub(crate) fn over_region<E: MeasureEstimator>(
                 let found = E::finish(&measure, &frame);
                 let flags = topology.flags();
                 if frame.normal.squared() > 0.0 && found.trusted() != 0 {
-                    let statuses = Statuses { flags, more: 0 };
-                    outputs.write(&[vertex as u32], 1, &found, scale, -1, &statuses);
+                    let (vertices, scales, fallbacks) = ([vertex as u32], [scale; MAX_LANES], found.fallbacks());
+                    let block = Block {
+                        vertices: &vertices,
+                        lanes: 1,
+                        scales,
+                        residual_power: -1,
+                        flags,
+                        more: 0,
+                        fallbacks,
+                    };
+                    outputs.write(&block, &found.rows());
                 } else {
                     outputs.write_none(vertex, normals[vertex], flags[vertex] | status::DEGENERATE);
                 }
@@ -321,7 +330,9 @@ impl Ball {
         let mut next = 0;
         while let Some(&vertex) = self.found.get(next) {
             next += 1;
-            if vertex != centre && self.distance(points, centre as usize, vertex as usize) >= 1.0 {
+            // A position that is none, where only some vertices are computed, is not inside.
+            let inside = self.distance(points, centre as usize, vertex as usize) < 1.0;
+            if vertex != centre && !inside {
                 continue;
             }
             for &neighbour in topology.ring(vertex as usize) {

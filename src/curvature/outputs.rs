@@ -2,9 +2,10 @@
 
 use super::principal::{Frame, Operator, positive};
 use crate::error::Error;
-use crate::simd::{Mask, Vector, Vector3, atan2_and_reciprocal};
+use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3, atan2_and_reciprocal};
 use crate::topology::status;
 use crate::view::{Output, ScalarOutput, StatusOutput};
+use glam::DVec3;
 
 /// Where the results of [`curvatures`](super::curvatures) go; all are optional, and each has an element for every vertex.
 ///
@@ -210,81 +211,108 @@ impl<V: Vector> Local<V> {
     }
 }
 
-/// Says which status a lane gets.
-pub(crate) struct Statuses<'a> {
-    /// Those that follow from the faces alone.
+/// What every lane of a [`Local`] found, in rows of numbers: so that what writes results is compiled once and not for every
+/// estimator and vector width.
+pub(crate) struct Rows([[f64; MAX_LANES]; ROWS]);
+
+const ROWS: usize = 18;
+
+impl<V: Vector> Local<V> {
+    /// The lanes as numbers.
+    #[inline(always)]
+    pub fn rows(&self) -> Rows {
+        let (normal, direction, mean) = (self.normal, self.direction1, self.mean_normal);
+        let rows: [V; ROWS] = [
+            self.k1,
+            self.k2,
+            self.mean,
+            self.gaussian,
+            self.area,
+            self.integrated_mean,
+            self.integrated_gaussian,
+            self.residual,
+            self.condition,
+            normal.x,
+            normal.y,
+            normal.z,
+            direction.x,
+            direction.y,
+            direction.z,
+            mean.x,
+            mean.y,
+            mean.z,
+        ];
+        Rows(rows.map(|row| row.to_lanes().map(Into::into)))
+    }
+
+    /// Lanes where something had to be filled in.
+    #[inline(always)]
+    pub fn fallbacks(&self) -> u32 {
+        self.fallback.bits()
+    }
+}
+
+/// What to write of a block besides its [`Rows`].
+pub(crate) struct Block<'a> {
+    /// Its vertices, at most one a lane.
+    pub vertices: &'a [u32],
+    /// A bit for each lane to write.
+    pub lanes: u32,
+    /// How many of the results' units of length make one of the mesh, lane by lane.
+    pub scales: [f64; MAX_LANES],
+    /// The power of length in which residuals are.
+    pub residual_power: i32,
+    /// Status bits of all vertices of the mesh.
     pub flags: &'a [u8],
-    /// For all lanes.
+    /// Status bits for every lane.
     pub more: u8,
+    /// Lanes whose status says fallback.
+    pub fallbacks: u32,
 }
 
 impl CurvatureOutputs<'_> {
-    /// Writes the lanes of `lanes` (bits) of a block. `scale` is how many of the result's units of length make one of the
-    /// mesh, and `residual_power` the power of length in which residuals are.
-    #[inline(always)]
-    pub(crate) fn write<V: Vector>(
-        &self,
-        vertices: &[u32],
-        lanes: u32,
-        found: &Local<V>,
-        scale: V,
-        residual_power: i32,
-        statuses: &Statuses<'_>,
-    ) {
-        // Macros, because a closure that is not inlined would lose the CPU features of its level.
-        macro_rules! each_lane {
-            ($vertex:ident, $lane:ident, $write:expr) => {
-                for ($lane, &$vertex) in vertices.iter().enumerate() {
-                    if lanes & 1 << $lane != 0 {
-                        $write;
-                    }
-                }
-            };
-        }
-        macro_rules! scalar {
-            ($output:ident, $value:expr) => {
-                if let Some(output) = &self.$output {
-                    let values = $value.to_lanes();
-                    each_lane!(vertex, lane, output.write(vertex as usize, [values[lane].into()]));
-                }
-            };
-        }
-        macro_rules! vector {
-            ($output:ident, $value:expr) => {
-                if let Some(output) = &self.$output {
-                    let value = $value;
-                    let [x, y, z] = [value.x.to_lanes(), value.y.to_lanes(), value.z.to_lanes()];
-                    each_lane!(
-                        vertex,
-                        lane,
-                        output.write(vertex as usize, [x[lane].into(), y[lane].into(), z[lane].into()])
-                    );
-                }
-            };
-        }
-        scalar!(k1, found.k1 * scale);
-        scalar!(k2, found.k2 * scale);
-        vector!(direction1, found.direction1);
-        vector!(direction2, found.normal.cross(found.direction1));
-        scalar!(mean, found.mean * scale);
-        scalar!(gaussian, found.gaussian * scale * scale);
-        vector!(mean_normal, found.mean_normal * scale);
-        scalar!(area, found.area / scale / scale);
-        scalar!(integrated_mean, found.integrated_mean / scale);
-        scalar!(integrated_gaussian, found.integrated_gaussian);
-        scalar!(shape_index, shape_index(found.k1, found.k2));
-        scalar!(curvedness, curvedness(found.k1, found.k2) * scale);
-        scalar!(residual, if residual_power > 0 { found.residual / scale } else { found.residual * scale });
-        scalar!(condition, found.condition);
-        vector!(normal, found.normal);
-        if let Some(output) = &self.status {
-            let fallback = found.fallback.bits();
-            for (lane, &vertex) in vertices.iter().enumerate() {
-                if lanes & 1 << lane != 0 {
-                    let fallback = if fallback & 1 << lane != 0 { status::FALLBACK } else { 0 };
-                    output.write(vertex as usize, statuses.flags[vertex as usize] | statuses.more | fallback);
-                }
+    /// Writes a block.
+    #[inline(never)]
+    pub(crate) fn write(&self, block: &Block<'_>, rows: &Rows) {
+        for (lane, &vertex) in block.vertices.iter().enumerate() {
+            if block.lanes & 1 << lane != 0 {
+                let fallback = if block.fallbacks & 1 << lane != 0 { status::FALLBACK } else { 0 };
+                self.write_vertex(vertex as usize, lane, block, rows, fallback);
             }
+        }
+    }
+
+    #[inline(always)]
+    fn write_vertex(&self, vertex: usize, lane: usize, block: &Block<'_>, rows: &Rows, fallback: u8) {
+        let scale = block.scales[lane];
+        let [k1, k2, mean, gaussian, area, integrated_mean, integrated_gaussian, residual, condition, ..] =
+            rows.0.each_ref().map(|row| row[lane]);
+        let vector = |first: usize| [rows.0[first][lane], rows.0[first + 1][lane], rows.0[first + 2][lane]];
+        let (normal, direction1, mean_normal) = (vector(9), vector(12), vector(15));
+        macro_rules! write {
+            ($($output:ident, $value:expr;)*) => {$(
+                if let Some(output) = &self.$output {
+                    output.write(vertex, $value);
+                }
+            )*};
+        }
+        write! {
+            k1, [k1 * scale];
+            k2, [k2 * scale];
+            direction1, direction1;
+            direction2, DVec3::from(normal).cross(direction1.into()).to_array();
+            mean, [mean * scale];
+            gaussian, [gaussian * scale * scale];
+            mean_normal, mean_normal.map(|x| x * scale);
+            area, [area / scale / scale];
+            integrated_mean, [integrated_mean / scale];
+            integrated_gaussian, [integrated_gaussian];
+            shape_index, [shape_index(k1, k2)];
+            curvedness, [((k1 * k1 + k2 * k2) * 0.5).sqrt() * scale];
+            residual, [if block.residual_power > 0 { residual / scale } else { residual * scale }];
+            condition, [condition];
+            normal, normal;
+            status, block.flags[vertex] | block.more | fallback;
         }
     }
 
@@ -319,18 +347,10 @@ impl CurvatureOutputs<'_> {
 }
 
 /// `(2/π) atan((k1 + k2) / (k1 − k2))`, 0 where both are zero.
-#[inline(always)]
-fn shape_index<V: Vector>(k1: V, k2: V) -> V {
+fn shape_index(k1: f64, k2: f64) -> f64 {
     let sum = k1 + k2;
     // Of any size: only the ratio counts.
-    let scale = sum.abs().max(k1 - k2).unit_scale();
+    let scale = sum.abs().max(k1 - k2).inverse_power_of_two();
     let (angle, _) = atan2_and_reciprocal(sum.abs() * scale, (k1 - k2) * scale);
-    let index = angle * V::constant(std::f64::consts::FRAC_2_PI);
-    V::select(sum.lt(V::zero()), -index, index)
-}
-
-/// `√((k1² + k2²) / 2)`
-#[inline(always)]
-fn curvedness<V: Vector>(k1: V, k2: V) -> V {
-    ((k1 * k1 + k2 * k2) * V::constant(0.5)).sqrt()
+    (angle * std::f64::consts::FRAC_2_PI).copysign(sum)
 }

@@ -1,6 +1,6 @@
 //! The driver of all methods that look at neighbourhoods of several rings.
 
-use super::outputs::{CurvatureOutputs, Local, Statuses};
+use super::outputs::{Block, CurvatureOutputs, Local};
 use crate::simd::Vector;
 use crate::sweep::{Patch, PatchQuantity};
 use crate::topology::status;
@@ -44,6 +44,16 @@ pub(crate) struct PatchCurvatures<'a, E> {
     pub estimator: E,
 }
 
+impl<E> PatchCurvatures<'_, E> {
+    #[inline(always)]
+    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, found: &Local<V>, scale: V, more: u8) {
+        let (flags, fallbacks) = (self.flags, found.fallbacks());
+        let scales = scale.to_lanes();
+        let block = Block { vertices, lanes, scales, residual_power: 1, flags, more, fallbacks };
+        self.outputs.write(&block, &found.rows());
+    }
+}
+
 impl<E: PatchEstimator> PatchQuantity for PatchCurvatures<'_, E> {
     const NEIGHBOUR_NORMALS: bool = E::NEIGHBOUR_NORMALS;
 
@@ -74,7 +84,7 @@ impl<E: PatchEstimator> PatchQuantity for PatchCurvatures<'_, E> {
         let trusted = found.trusted() & all;
         for (lanes, more) in [(trusted & !widened, 0), (trusted & widened, status::WIDENED)] {
             if lanes != 0 {
-                self.outputs.write(vertices, lanes, &found, scale, 1, &Statuses { flags: self.flags, more });
+                self.write(vertices, lanes, &found, scale, more);
             }
         }
         !trusted & all
@@ -92,8 +102,7 @@ impl<E: PatchEstimator> PatchQuantity for PatchCurvatures<'_, E> {
         let Some((found, more)) = self.estimator.alone(patch, last, scratch) else { return false };
         let widened = if widened { status::WIDENED } else { 0 };
         if found.trusted() != 0 {
-            let statuses = Statuses { flags: self.flags, more: more | widened };
-            self.outputs.write(&[vertex as u32], 1, &found, scale, 1, &statuses);
+            self.write(&[vertex as u32], 1, &found, scale, more | widened);
         } else {
             self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | status::DEGENERATE | widened);
         }

@@ -1,6 +1,6 @@
 //! The driver of all methods that look at one-rings: frames, fans, trust, statuses, outputs.
 
-use super::outputs::{CurvatureOutputs, Local, Statuses};
+use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::Frame;
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans};
@@ -67,6 +67,20 @@ impl<E: RingEstimator> Curvatures<'_, E> {
     fn normals_there<V: Vector>(normal: Vector3<V>) -> u32 {
         if E::NORMAL { V::zero().lt(normal.squared()).bits() } else { u32::MAX }
     }
+
+    #[inline(always)]
+    fn write<V: Vector>(&self, vertices: &[u32], lanes: u32, found: &Local<V>, scale: V) {
+        let block = Block {
+            vertices,
+            lanes,
+            scales: scale.to_lanes().map(Into::into),
+            residual_power: E::RESIDUAL_POWER,
+            flags: self.flags,
+            more: 0,
+            fallbacks: found.fallbacks(),
+        };
+        self.outputs.write(&block, &found.rows());
+    }
 }
 
 impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
@@ -92,11 +106,11 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         let found = self.estimator.finish(&sums, &frame);
         let all = (1u32 << vertices.len()) - 1;
         let trusted = found.trusted() & Self::normals_there(frame.normal) & all;
-        let statuses = Statuses { flags: self.flags, more: 0 };
-        self.outputs.write(vertices, trusted, &found, scale, E::RESIDUAL_POWER, &statuses);
+        self.write(vertices, trusted, &found, scale);
         !trusted & all
     }
 
+    #[inline(never)]
     fn alone<F: RingFaces<f64>>(
         &self,
         vertex: usize,
@@ -112,8 +126,7 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         }
         let found = self.estimator.finish(&sums, &frame);
         if found.trusted() & Self::normals_there(frame.normal) & 1 != 0 {
-            let statuses = Statuses { flags: self.flags, more: 0 };
-            self.outputs.write(&vertices, 1, &found, scale, E::RESIDUAL_POWER, &statuses);
+            self.write(&vertices, 1, &found, scale);
         } else {
             self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | status::DEGENERATE);
         }

@@ -277,7 +277,7 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
             }
             let sorted = by_count(&group[..count]);
             for block in sorted[..count].chunks(W::Double::LANES) {
-                let bits = sweep.block::<W::Double>(&group, block, &mut space);
+                let bits = sweep.block::<W, W::Double>(&group, block, &mut space);
                 if bits != 0 {
                     for (lane, &member) in block.iter().enumerate() {
                         if bits & 1 << lane != 0 {
@@ -287,6 +287,24 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                 }
             }
         }
+    }
+}
+
+/// A call of [`PatchQuantity::block`].
+struct PatchBlock<'a, 'p, Q, V> {
+    quantity: &'a Q,
+    vertices: &'a [u32],
+    patch: &'a Patch<'p, V>,
+    scale: V,
+    widened: u32,
+    scratch: &'a mut [V],
+    untrusted: &'a mut u32,
+}
+
+impl<Q: PatchQuantity, V: Vector<Scalar = f64>> Task for PatchBlock<'_, '_, Q, V> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        *self.untrusted = self.quantity.block(self.vertices, self.patch, self.scale, self.widened, self.scratch);
     }
 }
 
@@ -340,7 +358,12 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
     }
 
     #[inline(always)]
-    fn block<V: Vector<Scalar = f64>>(&self, group: &[Member; GROUP], block: &[u8], space: &mut Space) -> u32 {
+    fn block<W: Width, V: Vector<Scalar = f64>>(
+        &self,
+        group: &[Member; GROUP],
+        block: &[u8],
+        space: &mut Space,
+    ) -> u32 {
         let member = |lane: usize| &group[block[lane] as usize];
         // Sorted by count.
         let (full, length) = (member(0).count as usize, member(block.len() - 1).count as usize);
@@ -371,7 +394,10 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         let scale = fit_to_unit(points);
         let normal = Vector3::from_lanes(&own);
         let patch = Patch { points, normals, normal, count: V::from_lanes(&counts), full, rings: &[] };
-        self.quantity.block(&vertices[..block.len()], &patch, scale, widened, scratch)
+        // In a function of its own, which positions of either precision share.
+        let (quantity, vertices, mut untrusted) = (self.quantity, &vertices[..block.len()], 0);
+        W::call(PatchBlock { quantity, vertices, patch: &patch, scale, widened, scratch, untrusted: &mut untrusted });
+        untrusted
     }
 
     /// The vertex-by-vertex path.
