@@ -32,8 +32,9 @@ mod topology;
 mod view;
 
 pub use curvature::{
-    CurvatureOptions, CurvatureOutputs, Directions, Method, PolylineOutputs, Section, SectionOutputs, VertexNormals,
-    curvatures, direction_sections, edge_sections, polyline_curvatures, polyline_status, section_status,
+    CurvatureKind, CurvatureOptions, CurvatureOutputs, Directions, Method, PolylineOutputs, Section, SectionOutputs,
+    VertexNormals, curvatures, direction_sections, edge_sections, polyline_curvatures, polyline_status,
+    section_status,
 };
 pub use error::Error;
 pub use fit::JetOptions;

@@ -362,7 +362,7 @@ fn wrong_usage_is_told_apart() {
 #[test]
 fn help_has_an_example_for_each_command() {
     let folder = Folder::new();
-    for command in ["normals", "info", "render", "generate"] {
+    for command in ["normals", "curvature", "info", "render", "generate"] {
         let help = folder.succeed(&format!("{command} --help"));
         assert!(help.contains(&format!("Example:\n  umbilic {command} ")), "{help}");
     }

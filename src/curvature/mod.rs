@@ -24,7 +24,7 @@ mod watanabe;
 
 pub use direction_section::{Directions, direction_sections};
 pub use edge_section::{SectionOutputs, edge_sections};
-pub use outputs::CurvatureOutputs;
+pub use outputs::{CurvatureKind, CurvatureOutputs};
 pub use polyline::{PolylineOutputs, polyline_curvatures, polyline_status};
 pub use vertex::{CurvatureOptions, VertexNormals, curvatures};
 
@@ -118,6 +118,16 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
+    /// Whether the method has outputs of a kind; the others it refuses.
+    pub fn has(self, kind: CurvatureKind) -> bool {
+        self.provides().has(kind.into())
+    }
+
+    /// Whether the method works with sections along edges, so that [`CurvatureOptions::section`] counts.
+    pub fn has_sections(self) -> bool {
+        matches!(self, Method::LeastSquares | Method::Taubin | Method::Watanabe)
+    }
+
     /// What the method has to give.
     pub(crate) fn provides(self) -> Kinds {
         let values = Kinds::PRINCIPAL.and(Kinds::MEAN).and(Kinds::GAUSSIAN);
@@ -187,6 +197,23 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn methods_say_what_they_have() {
+        assert!(CurvatureKind::ALL.into_iter().filter(|&kind| Method::Jet.has(kind)).eq([
+            CurvatureKind::Principal,
+            CurvatureKind::Directions,
+            CurvatureKind::Mean,
+            CurvatureKind::Gaussian,
+            CurvatureKind::Residual,
+            CurvatureKind::Condition,
+        ]));
+        assert!(CurvatureKind::ALL.into_iter().filter(|&kind| Method::AngleDefect.has(kind)).eq([
+            CurvatureKind::Gaussian,
+            CurvatureKind::Area,
+            CurvatureKind::IntegratedGaussian,
+        ]));
+    }
 
     #[test]
     fn names_lead_back() {

@@ -49,7 +49,62 @@ pub struct CurvatureOutputs<'a> {
     pub status: Option<StatusOutput<'a>>,
 }
 
-/// Kinds of outputs that a method has or has not.
+/// A kind of outputs that a method has or has not; normals and statuses all have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CurvatureKind {
+    /// `k1`, `k2`, `shape_index` and `curvedness`.
+    Principal,
+    /// `direction1` and `direction2`.
+    Directions,
+    /// `mean` and `mean_normal`.
+    Mean,
+    /// `gaussian`.
+    Gaussian,
+    /// `area`.
+    Area,
+    /// `integrated_mean`.
+    IntegratedMean,
+    /// `integrated_gaussian`.
+    IntegratedGaussian,
+    /// `residual`.
+    Residual,
+    /// `condition`.
+    Condition,
+}
+
+impl CurvatureKind {
+    /// Every kind.
+    pub const ALL: [CurvatureKind; 9] = [
+        CurvatureKind::Principal,
+        CurvatureKind::Directions,
+        CurvatureKind::Mean,
+        CurvatureKind::Gaussian,
+        CurvatureKind::Area,
+        CurvatureKind::IntegratedMean,
+        CurvatureKind::IntegratedGaussian,
+        CurvatureKind::Residual,
+        CurvatureKind::Condition,
+    ];
+}
+
+impl From<CurvatureKind> for Kinds {
+    fn from(kind: CurvatureKind) -> Kinds {
+        match kind {
+            CurvatureKind::Principal => Kinds::PRINCIPAL,
+            CurvatureKind::Directions => Kinds::DIRECTIONS,
+            CurvatureKind::Mean => Kinds::MEAN,
+            CurvatureKind::Gaussian => Kinds::GAUSSIAN,
+            CurvatureKind::Area => Kinds::AREA,
+            CurvatureKind::IntegratedMean => Kinds::INTEGRATED_MEAN,
+            CurvatureKind::IntegratedGaussian => Kinds::INTEGRATED_GAUSSIAN,
+            CurvatureKind::Residual => Kinds::RESIDUAL,
+            CurvatureKind::Condition => Kinds::CONDITION,
+        }
+    }
+}
+
+/// A set of [`CurvatureKind`]s.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Kinds(u16);
 

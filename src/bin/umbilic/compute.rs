@@ -2,9 +2,13 @@
 
 use crate::mesh::PolygonMesh;
 use crate::progress;
+use crate::quantity::Quantity;
 use crate::read::PolylineFile;
 use std::path::Path;
-use umbilic::{Error, Faces, NormalOutputs, Points, PolylineOutputs, PolylinePoints, Run, Section, Topology, Weight};
+use umbilic::{
+    CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points, PolylineOutputs,
+    PolylinePoints, Run, Section, Topology, Weight, status,
+};
 
 /// The one-rings of a mesh.
 pub fn topology(mesh: &PolygonMesh) -> Result<Topology, Error> {
@@ -33,15 +37,110 @@ pub fn vertex_normals(
         status: Some(found.status.as_mut_slice().into()),
         ..NormalOutputs::default()
     };
-    let bar = progress::computing(mesh.vertex_count());
+    with_progress(mesh, 1, threads, |run| {
+        umbilic::vertex_normals(topology, &Points::from(&mesh.positions), weight, run, &outputs)
+    })?;
+    Ok(found)
+}
+
+/// Runs a computation with a progress bar. `cost` is as in [`progress::computing`].
+fn with_progress<T>(mesh: &PolygonMesh, cost: usize, threads: usize, compute: impl FnOnce(Run<'_>) -> T) -> T {
+    let bar = progress::computing(mesh.vertex_count(), cost);
     let mut show = |done: f64| {
         bar.set_position((done * progress::WHOLE) as u64);
         true
     };
-    let run = Run { threads, progress: Some(&mut show), ..Run::default() };
-    let result = umbilic::vertex_normals(topology, &Points::from(&mesh.positions), weight, run, &outputs);
+    let result = compute(Run { threads, progress: Some(&mut show), ..Run::default() });
     bar.finish_and_clear();
-    result.map(|()| found)
+    result
+}
+
+/// What the library finds at each vertex of a mesh, of all that the method has.
+pub struct VertexCurvatures {
+    /// Unit normals; zero where there is none.
+    pub normals: Vec<[f32; 3]>,
+    /// Bits of [`umbilic::status`].
+    pub status: Vec<u8>,
+    /// By [`Quantity`].
+    quantities: [Option<Vec<f64>>; Quantity::ALL.len()],
+    /// The unit tangent directions of `k1` and `k2`.
+    pub directions: Option<[Vec<[f32; 3]>; 2]>,
+    /// The areas that the vertices stand for.
+    pub area: Option<Vec<f64>>,
+    /// Mean curvature integrated over them.
+    pub integrated_mean: Option<Vec<f64>>,
+    /// Gaussian curvature integrated over them.
+    pub integrated_gaussian: Option<Vec<f64>>,
+}
+
+impl VertexCurvatures {
+    /// A quantity at each vertex, 0 where there is no result; `None` where the method has it not.
+    pub fn quantity(&self, quantity: Quantity) -> Option<&[f64]> {
+        self.quantities[quantity as usize].as_deref()
+    }
+
+    /// A quantity at the vertices that have a result.
+    pub fn results(&self, quantity: Quantity) -> Option<impl Iterator<Item = f64>> {
+        let values = self.quantity(quantity)?.iter().zip(&self.status);
+        Some(values.filter(|&(_, &status)| has_result(status)).map(|(&value, _)| value))
+    }
+}
+
+/// Whether a status does not say that there is no result.
+pub fn has_result(status: u8) -> bool {
+    status & (status::ISOLATED | status::DEGENERATE) == 0
+}
+
+/// The curvatures of a mesh, on so many threads (0: as many as pay).
+pub fn vertex_curvatures(
+    mesh: &PolygonMesh,
+    topology: &Topology,
+    options: &CurvatureOptions<'_>,
+    threads: usize,
+) -> Result<VertexCurvatures, Error> {
+    /// How many times as long as a normal by one ring a vertex takes, about.
+    const COST: usize = 20;
+    let count = mesh.vertex_count();
+    let scalar = |kind| options.method.has(kind).then(|| vec![0.0; count]);
+    let mut found = VertexCurvatures {
+        normals: vec![[0.0; 3]; count],
+        status: vec![0; count],
+        quantities: Quantity::ALL.map(|quantity| scalar(quantity.kind())),
+        directions: options.method.has(CurvatureKind::Directions).then(|| [0, 1].map(|_| vec![[0.0; 3]; count])),
+        area: scalar(CurvatureKind::Area),
+        integrated_mean: scalar(CurvatureKind::IntegratedMean),
+        integrated_gaussian: scalar(CurvatureKind::IntegratedGaussian),
+    };
+    macro_rules! output {
+        ($place:expr) => {
+            $place.as_mut().map(|values| values.as_mut_slice().into())
+        };
+    }
+    let [k1, k2, mean, gaussian, shape_index, curvedness] = &mut found.quantities;
+    let [direction1, direction2] = match &mut found.directions {
+        Some(directions) => directions.each_mut().map(Some),
+        None => [None, None],
+    };
+    let outputs = CurvatureOutputs {
+        k1: output!(k1),
+        k2: output!(k2),
+        mean: output!(mean),
+        gaussian: output!(gaussian),
+        shape_index: output!(shape_index),
+        curvedness: output!(curvedness),
+        direction1: direction1.map(|vectors| vectors.as_mut_slice().into()),
+        direction2: direction2.map(|vectors| vectors.as_mut_slice().into()),
+        area: output!(found.area),
+        integrated_mean: output!(found.integrated_mean),
+        integrated_gaussian: output!(found.integrated_gaussian),
+        normal: Some(found.normals.as_mut_slice().into()),
+        status: Some(found.status.as_mut_slice().into()),
+        ..CurvatureOutputs::default()
+    };
+    with_progress(mesh, COST, threads, |run| {
+        umbilic::curvatures(topology, &Points::from(&mesh.positions), options, run, &outputs)
+    })?;
+    Ok(found)
 }
 
 /// What the library finds at each vertex of a polyline.

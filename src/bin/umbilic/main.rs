@@ -1,17 +1,25 @@
-//! The program `umbilic`: vertex normals, facts and pictures of meshes in files, and curvatures of polylines.
+//! The program `umbilic`: vertex normals, curvatures, facts and pictures of meshes in files, and curvatures of polylines.
 //!
 //! Each of the [`commands`] has a file of its own. What they share: [`args`] (value parsers), [`compute`] (calls of the
 //! library), [`read`], [`write`], [`render`] and [`generate`] for a [`mesh`], [`progress`] bars and printed [`table`]s.
+//! For colors: a [`quantity`] goes by its [`quantiles`] to a [`scale`], by this to the [`colormap`] and its [`colorbar`].
+//! A [`summary`] tells of them.
 
 mod args;
+mod colorbar;
+mod colormap;
 mod commands;
 mod compute;
 mod generate;
 mod mesh;
 mod output;
 mod progress;
+mod quantiles;
+mod quantity;
 mod read;
 mod render;
+mod scale;
+mod summary;
 mod table;
 mod write;
 
@@ -20,7 +28,7 @@ use commands::Command;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Vertex normals of polygon meshes, curvatures of polylines.
+/// Vertex normals and curvatures of polygon meshes, curvatures of polylines.
 ///
 /// Reads meshes from OBJ, PLY, STL and OFF files. Polygons are used as they are, not cut into triangles first.
 #[derive(Parser)]
@@ -35,7 +43,8 @@ Examples:
   umbilic generate torus -o torus.ply
   umbilic info torus.ply
   umbilic normals torus.ply -o with-normals.ply
-  umbilic render torus.ply -o torus.png
+  umbilic curvature torus.ply -o with-curvatures.ply
+  umbilic render torus.ply -o torus.png --color mean
   umbilic polyline outline.txt --closed
 
 Exit status: 0 done, 1 failed, 2 wrong usage.";

@@ -17,9 +17,10 @@ pub fn reading(length: u64) -> ProgressBar {
     bar(length >= FROM_BYTES, length, "reading {bar:40} {bytes}/{total_bytes}")
 }
 
-/// A bar that counts thousandths of a computation on so many vertices.
-pub fn computing(vertices: usize) -> ProgressBar {
-    bar(vertices >= FROM_VERTICES, WHOLE as u64, "computing {bar:40} {percent}%")
+/// A bar that counts thousandths of a computation on so many vertices, each of which takes `cost` times as long as a
+/// normal by one ring.
+pub fn computing(vertices: usize, cost: usize) -> ProgressBar {
+    bar(vertices.saturating_mul(cost) >= FROM_VERTICES, WHOLE as u64, "computing {bar:40} {percent}%")
 }
 
 fn bar(wanted: bool, length: u64, template: &str) -> ProgressBar {

@@ -45,9 +45,10 @@ pub struct Column<'a> {
 /// The values of a scalar per vertex.
 #[derive(Debug, Clone, Copy)]
 pub enum ColumnValues<'a> {
-    /// Written as `float`.
-    #[cfg_attr(not(test), expect(dead_code, reason = "for quantities to come, such as curvatures"))]
-    Float(&'a [f32]),
+    /// Written as `float`; what is beyond its range as its largest number.
+    Float(&'a [f64]),
+    /// One axis of vectors, written as `float`.
+    Axis(&'a [[f32; 3]], usize),
     /// Written as `uchar`.
     Byte(&'a [u8]),
 }
@@ -57,6 +58,7 @@ impl<'a> ColumnValues<'a> {
     fn len(&self) -> usize {
         match self {
             Self::Float(values) => values.len(),
+            Self::Axis(values, _) => values.len(),
             Self::Byte(values) => values.len(),
         }
     }
@@ -184,7 +186,14 @@ fn list_properties<'a>(mesh: &'a PolygonMesh, properties: &VertexProperties<'a>)
             ColumnValues::Float(values) => VertexProperty {
                 name,
                 scalar: ScalarType::Float,
-                value: Box::new(move |vertex| Property::Float(values[vertex])),
+                value: Box::new(move |vertex| {
+                    Property::Float(values[vertex].clamp(f32::MIN.into(), f32::MAX.into()) as f32)
+                }),
+            },
+            ColumnValues::Axis(values, axis) => VertexProperty {
+                name,
+                scalar: ScalarType::Float,
+                value: Box::new(move |vertex| Property::Float(values[vertex][axis])),
             },
             ColumnValues::Byte(values) => VertexProperty {
                 name,
@@ -287,7 +296,8 @@ mod tests {
         let properties = VertexProperties {
             normals: Some(&[[0.0, 0.6, 0.8]; 4]),
             columns: vec![
-                Column { name: "quality", values: ColumnValues::Float(&[0.5, 1.5, 2.5, 3.5]) },
+                Column { name: "quality", values: ColumnValues::Float(&[0.5, 1e300, 2.5, 3.5]) },
+                Column { name: "to_x", values: ColumnValues::Axis(&[[0.25, 0.5, 0.75]; 4], 1) },
                 Column { name: "flag", values: ColumnValues::Byte(&[1, 2, 3, 4]) },
             ],
             colors: Some(&[[255, 128, 0]; 4]),
@@ -301,6 +311,7 @@ mod tests {
                 "property float nx",
                 "property uchar red",
                 "property float quality",
+                "property float to_x",
                 "property uchar flag",
                 "element face 2",
                 "property list uchar int vertex_indices",
@@ -309,7 +320,7 @@ mod tests {
             }
         }
         let (text, _) = round_trip(&mesh, &properties, PlyFormat::Ascii);
-        assert!(text.contains("\n0.1 0 0 0 0.6 0.8 255 128 0 0.5 1\n"), "{text}");
+        assert!(text.contains("\n0.1 0 0 0 0.6 0.8 255 128 0 0.5 0.5 1\n"), "{text}");
         assert!(text.ends_with("\n4 0 1 2 3\n3 2 1 0\n"), "{text}");
     }
 

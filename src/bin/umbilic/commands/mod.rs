@@ -1,5 +1,6 @@
 //! The commands, each with its arguments and a `run` that returns what to print.
 
+mod curvature;
 mod generate;
 mod info;
 mod normals;
@@ -15,6 +16,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 #[derive(Subcommand)]
 pub enum Command {
     Normals(normals::Normals),
+    Curvature(curvature::Curvature),
     Polyline(polyline::Polyline),
     Info(info::Info),
     Render(render::Render),
@@ -26,6 +28,7 @@ impl Command {
     pub fn run(&self) -> Outcome {
         match self {
             Command::Normals(command) => command.run(),
+            Command::Curvature(command) => command.run(),
             Command::Polyline(command) => command.run(),
             Command::Info(command) => command.run(),
             Command::Render(command) => command.run(),

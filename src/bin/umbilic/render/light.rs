@@ -52,6 +52,17 @@ pub(super) fn light(Shade { normal, color }: Shade) -> [f32; 3] {
     std::array::from_fn(|i| color[i] * received[i] + GLOSS * reflected)
 }
 
+/// The color itself where the surface faces the viewer and the main light, darker elsewhere, but never of another hue.
+pub(super) fn shade_mildly(Shade { normal, color }: Shade) -> [f32; 3] {
+    const DARKEST: f32 = 0.35;
+    const LAMP: [f32; 3] = [-0.45, 0.50, 0.74];
+    let normal = unit(normal);
+    let wrapped = (dot32(normal, LAMP) * 0.5 + 0.5).clamp(0.0, 1.0);
+    let facing = normal[2].clamp(0.0, 1.0);
+    let amount = DARKEST + (1.0 - DARKEST) * (wrapped * wrapped * (0.4 + 0.6 * facing.sqrt()));
+    color.map(|value| value * amount)
+}
+
 /// Decodes a byte of the sRGB color space into linear light.
 pub(super) fn to_linear(byte: u8) -> f32 {
     srgb_to_linear(f32::from(byte) / 255.0)
@@ -87,6 +98,16 @@ mod tests {
     fn the_encoding_of_bytes_is_undone_exactly() {
         for byte in 0..=255 {
             assert_eq!(to_srgb(to_linear(byte)), byte);
+        }
+    }
+
+    #[test]
+    fn mild_shades_keep_hues() {
+        let color = [0.8, 0.4, 0.2];
+        for normal in [[0.0, 0.0, 1.0], [-0.6, 0.6, 0.5], [0.9, -0.4, 0.1], [0.0; 3]] {
+            let [red, green, blue] = shade_mildly(Shade { normal, color });
+            assert!((0.28..=0.8).contains(&red), "{normal:?}: {red}");
+            assert!((green / red - 0.5).abs() < 1e-6 && (blue / red - 0.25).abs() < 1e-6);
         }
     }
 

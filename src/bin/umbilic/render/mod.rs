@@ -16,7 +16,7 @@ use crate::output::{WriteError, write_file};
 use camera::Camera;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
-use light::{light, show_normal, to_linear, to_srgb};
+use light::{light, shade_mildly, show_normal, to_linear, to_srgb};
 use raster::Canvas;
 use std::path::Path;
 use triangulate::Triangulator;
@@ -87,8 +87,7 @@ pub enum Projection {
 pub enum Surface<'a> {
     /// Neutral, matte and lit.
     Clay,
-    /// Lit, with one color per vertex.
-    #[cfg_attr(not(test), expect(dead_code, reason = "for quantities to come, such as curvatures"))]
+    /// One color per vertex, lit so mildly that it can be told apart from its neighbors in a colormap.
     VertexColors(&'a [[u8; 3]]),
     /// Not lit: the components of the normal from -1 to 1 are the amounts of red, green and blue.
     NormalColors,
@@ -140,7 +139,8 @@ fn render(mesh: &PolygonMesh, normals: &[[f32; 3]], options: &RenderOptions<'_>)
             let corners = camera.see(triangle, normals, options.surface);
             match options.surface {
                 Surface::NormalColors => canvas.fill(corners, show_normal),
-                Surface::Clay | Surface::VertexColors(_) => canvas.fill(corners, light),
+                Surface::VertexColors(_) => canvas.fill(corners, shade_mildly),
+                Surface::Clay => canvas.fill(corners, light),
             }
         }
     }

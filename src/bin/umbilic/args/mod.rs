@@ -1,5 +1,11 @@
 //! Values on the command line: weights, sizes, angles, names of output files.
 
+mod curvature;
+mod scale;
+
+pub use curvature::CurvatureEstimator;
+pub use scale::ColorScale;
+
 use crate::render::{LARGEST_SIDE, UpAxis};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
@@ -24,13 +30,16 @@ pub struct Estimator {
 impl Estimator {
     /// The weight with its options; refused where it has none.
     pub fn weight(&self) -> Result<Weight, String> {
-        match self.weight {
-            Weight::Jet(_) => {
-                Ok(Weight::Jet(JetOptions { degree: self.degree.unwrap_or(0), rings: self.rings.unwrap_or(0) }))
-            }
-            weight if self.degree.is_none() && self.rings.is_none() => Ok(weight),
-            weight => Err(format!("--degree and --rings are for --weight jet, not {}", weight.name())),
-        }
+        weight_with(self.weight, self.degree, self.rings)
+    }
+}
+
+/// A weight with the options of a jet; refused where it has none.
+fn weight_with(weight: Weight, degree: Option<u8>, rings: Option<u8>) -> Result<Weight, String> {
+    match weight {
+        Weight::Jet(_) => Ok(Weight::Jet(JetOptions { degree: degree.unwrap_or(0), rings: rings.unwrap_or(0) })),
+        weight if degree.is_none() && rings.is_none() => Ok(weight),
+        weight => Err(format!("--degree and --rings are for --weight jet, not {}", weight.name())),
     }
 }
 
@@ -55,6 +64,12 @@ fn describe(weight: Weight) -> &'static str {
         Weight::Jet(_) => "A polynomial fitted to several rings; best on fine smooth meshes, dear, rounds creases",
         _ => "",
     }
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.parse().ok();
+    number.filter(|&number| number > 0.0 && number.is_finite()).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 /// The name of a PLY file to write.

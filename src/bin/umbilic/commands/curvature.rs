@@ -1,0 +1,182 @@
+//! `umbilic curvature`: curvatures at the vertices of a mesh, as a table, a PLY file and colors.
+
+use super::Outcome;
+use crate::args;
+use crate::colorbar::write_colorbar;
+use crate::compute::{self, VertexCurvatures};
+use crate::mesh::PolygonMesh;
+use crate::quantity::Quantity;
+use crate::read::read_mesh;
+use crate::scale::Scale;
+use crate::summary::Summary;
+use crate::write::{Column, ColumnValues, PlyFormat, VertexProperties, write_ply};
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Compute the curvatures of a mesh.
+///
+/// Prints the spread of the principal curvatures k1 and k2 (k1 is the larger), of mean curvature (k1 + k2) / 2, all in
+/// 1/length, and of Gaussian curvature k1 k2, in 1/length², as far as the method has them. Curvatures are positive where
+/// the surface bends away from its normal: with faces that turn counterclockwise seen from outside, a sphere of radius r
+/// has k1 = k2 = 1/r. Vertices without a result do not count.
+///
+/// The PLY file has the positions and faces of the input and for each vertex: the unit normal as nx, ny and nz; colors
+/// as red, green and blue; k1, k2, mean, gaussian, shape_index and curvedness; the unit directions of k1 and k2 as k1_x
+/// to k2_z; and its status as the sum of: 1 boundary, 2 non-manifold, 4 faces that disagree on the orientation, 8
+/// isolated, 16 something that the input leaves undetermined was filled in, 32 no result, 64 the neighbourhood was
+/// widened. Numbers are zero where there is no result.
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  umbilic curvature cow.obj -o cow.ply --color mean")]
+pub struct Curvature {
+    /// The mesh: an OBJ, PLY, STL or OFF file.
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// The PLY file to write. Next to it OUT.colorbar.png shows its colors with their numbers, unless --colorbar names
+    /// another file or there are no colors.
+    #[arg(short, long, value_name = "OUT.ply", value_parser = args::ply_file)]
+    output: Option<PathBuf>,
+    /// What the colors show: blue is negative, red positive, nearly white 0, gray a vertex without a result
+    /// [default: mean, or gaussian where the method has no mean].
+    #[arg(long, value_enum, value_name = "QUANTITY")]
+    color: Option<Color>,
+    /// Write text instead of binary numbers.
+    #[arg(long)]
+    ascii: bool,
+    /// The number of threads; 0 for as many as pay.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    threads: u16,
+    /// Print one JSON object instead of tables.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    options: args::CurvatureEstimator,
+    #[command(flatten)]
+    scale: args::ColorScale,
+}
+
+/// What the colors show.
+#[derive(Clone, Copy)]
+enum Color {
+    Quantity(Quantity),
+    Nothing,
+}
+
+impl ValueEnum for Color {
+    fn value_variants<'a>() -> &'a [Self] {
+        const VARIANTS: [Color; Quantity::ALL.len() + 1] = {
+            let mut variants = [Color::Nothing; Quantity::ALL.len() + 1];
+            let mut index = 0;
+            while index < Quantity::ALL.len() {
+                variants[index] = Color::Quantity(Quantity::ALL[index]);
+                index += 1;
+            }
+            variants
+        };
+        &VARIANTS
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Color::Quantity(quantity) => quantity.to_possible_value(),
+            Color::Nothing => Some(PossibleValue::new("none").help("No colors")),
+        }
+    }
+}
+
+impl Curvature {
+    /// Runs the command.
+    pub fn run(&self) -> Outcome {
+        let options = self.options.options()?;
+        let color = self.color()?;
+        let blame = self.options.blame(&self.input);
+        let start = Instant::now();
+        let mesh = read_mesh(&self.input)?;
+        let read = Instant::now();
+        let topology = compute::topology(&mesh).map_err(&blame)?;
+        let built = Instant::now();
+        let found = compute::vertex_curvatures(&mesh, &topology, &options, self.threads.into()).map_err(&blame)?;
+        let computed = Instant::now();
+        let colors = color.map(|quantity| (quantity, self.scale.scale(quantity, &mesh, &found)));
+        let bar = match &colors {
+            Some((_, scale)) => self.write_bar(scale)?,
+            None => None,
+        };
+        if let Some(output) = &self.output {
+            self.write(output, &mesh, &found, colors)?;
+        }
+        let summary = Summary {
+            stats: topology.stats().map_err(&blame)?,
+            options: self.options.rows(),
+            adds_up: self.options.adds_up(),
+            found: &found,
+            colors,
+            bar,
+            times: [
+                ("read", read - start),
+                ("topology", built - read),
+                ("curvatures", computed - built),
+                ("write", computed.elapsed()),
+            ],
+        };
+        Ok(if self.json { format!("{:#}\n", summary.json()) } else { summary.text() })
+    }
+
+    /// What the colors are to show.
+    fn color(&self) -> Result<Option<Quantity>, String> {
+        match self.color {
+            Some(Color::Nothing) => self.scale.refuse().map(|()| None),
+            Some(Color::Quantity(quantity)) => self.options.check(quantity).map(|()| Some(quantity)),
+            None => {
+                let has = |quantity: &Quantity| self.options.method().has(quantity.kind());
+                Ok([Quantity::Mean, Quantity::Gaussian].into_iter().find(has))
+            }
+        }
+    }
+
+    /// Draws the color bar where it is asked for, or else next to the mesh; tells where.
+    fn write_bar(&self, scale: &Scale) -> Result<Option<PathBuf>, crate::output::WriteError> {
+        // Nothing belongs next to a device or a pipe.
+        let file = |path: &&PathBuf| path.metadata().map_or(true, |metadata| metadata.is_file());
+        let beside = || self.output.as_ref().filter(file).map(|path| path.with_extension("colorbar.png"));
+        let bar = self.scale.colorbar.clone().or_else(beside);
+        if let Some(path) = &bar {
+            write_colorbar(path, scale)?;
+        }
+        Ok(bar)
+    }
+
+    /// Writes the mesh with all that was found.
+    fn write(
+        &self,
+        path: &Path,
+        mesh: &PolygonMesh,
+        found: &VertexCurvatures,
+        colors: Option<(Quantity, Scale)>,
+    ) -> Result<(), crate::output::WriteError> {
+        let colors =
+            colors.map(|(quantity, scale)| scale.colors(found.quantity(quantity).unwrap_or_default(), &found.status));
+        let mut columns: Vec<Column<'_>> = Quantity::ALL
+            .into_iter()
+            .filter_map(|quantity| {
+                let values = ColumnValues::Float(found.quantity(quantity)?);
+                Some(Column { name: quantity.name(), values })
+            })
+            .collect();
+        if let Some(directions) = &found.directions {
+            let names = [["k1_x", "k1_y", "k1_z"], ["k2_x", "k2_y", "k2_z"]];
+            for (vectors, names) in directions.iter().zip(names) {
+                columns.extend(
+                    (0..3).map(|axis| Column { name: names[axis], values: ColumnValues::Axis(vectors, axis) }),
+                );
+            }
+        }
+        columns.push(Column { name: "status", values: ColumnValues::Byte(&found.status) });
+        let properties = VertexProperties { normals: Some(&found.normals), columns, colors: colors.as_deref() };
+        let format = if self.ascii { PlyFormat::Ascii } else { PlyFormat::BinaryLittleEndian };
+        write_ply(path, mesh, &properties, format)
+    }
+}
