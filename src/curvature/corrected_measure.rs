@@ -13,8 +13,8 @@
 //! of a sphere. Their accuracy is that of the normals: give good ones.
 //!
 //! Input: any ring of triangles or polygons, with the normals of all vertices; a region of one ring, several, or a ball
-//! (see [`measure`](super::measure)). A polygon counts as the fan of triangles around its centroid, where the normal is the
-//! mean of the corners'; half of the two triangles at a corner belong to its vertex.
+//! (see [`measure`](super::measure)). A polygon counts as the fan of triangles around the mean of its corners, where the
+//! normal is the mean of theirs; half of the two triangles at a corner belong to its vertex.
 //! Reference: Lachaud, Romon, Thibert & Coeurjolly 2020, "Interpolated corrected curvature measures for polygonal surfaces",
 //! section 3 and table 1; signs turned so that a sphere with outward normals is positive.
 //! Boundary: no rule needed. Degenerate rule: a region whose corrected area is not positive (normals that face away from

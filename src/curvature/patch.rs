@@ -1,7 +1,7 @@
 //! The driver of all methods that look at neighbourhoods of several rings.
 
 use super::outputs::{Block, CurvatureOutputs, Local};
-use crate::simd::Vector;
+use crate::simd::{Mask, Vector};
 use crate::sweep::{Patch, PatchQuantity};
 use crate::topology::status;
 
@@ -81,7 +81,8 @@ impl<E: PatchEstimator> PatchQuantity for PatchCurvatures<'_, E> {
     ) -> u32 {
         let found = self.estimator.lanes(patch, scratch);
         let all = (1u32 << vertices.len()) - 1;
-        let trusted = found.trusted() & all;
+        // A vertex without normal is none that a fit could answer for.
+        let trusted = found.trusted() & V::zero().lt(patch.normal.squared()).bits() & all;
         for (lanes, more) in [(trusted & !widened, 0), (trusted & widened, status::WIDENED)] {
             if lanes != 0 {
                 self.write(vertices, lanes, &found, scale, more);

@@ -7,7 +7,7 @@
 //! Input: any ring of triangles or polygons, with the normals of all vertices. Reference: Rusinkiewicz 2004, "Estimating
 //! curvatures and their derivatives on triangle meshes", sections 3.1 and 3.2; mixed areas instead of its Voronoi areas
 //! where those turn negative. At a corner of a polygon the edges are those of the triangle at the corner, and the line from
-//! the vertex to the centroid, where the normal is the mean of the corners'; the plane is that of the whole polygon.
+//! the vertex to the mean of the corners, where the normal is the mean of theirs; the plane is that of the whole polygon.
 //! Converges where the vertex normals are better than first order. Boundary: no rule needed. Degenerate rule: faces whose
 //! edges do not span a plane, that face away from the vertex normal altogether, or without area, are left out; a vertex with
 //! none left has no result. Cost: two roots and seven divisions a corner.

@@ -20,7 +20,8 @@ pub(crate) struct Frame {
     pub normal: DVec3,
     /// The square root of the area.
     pub size: f64,
-    /// From the first corner to the centroid, if it was asked for.
+    /// From the first corner to the centroid, if it was asked for; if normals are given, to the mean of the corners, which is
+    /// where the normal is the mean of theirs.
     pub centroid: DVec3,
     /// One by the number of corners.
     pub share: f64,
@@ -107,10 +108,16 @@ impl<'a, S: Coordinate, I: Index> Local<'a, S, I> {
         ((count - 2) as f64 * std::f64::consts::PI - sum) / count as f64
     }
 
+    /// The mean of the corners.
+    fn mean(&self) -> DVec3 {
+        let count = self.corners.len();
+        (1..count).map(|index| self.corner(index)).sum::<DVec3>() / count as f64
+    }
+
     /// The centroid, given the unit normal and twice the area.
     fn centroid(&self, normal: DVec3, twice_area: f64) -> DVec3 {
         let count = self.corners.len();
-        let mean = (1..count).map(|index| self.corner(index)).sum::<DVec3>() / count as f64;
+        let mean = self.mean();
         if count == 3 {
             return mean;
         }
@@ -185,7 +192,11 @@ fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], asked: A
     let (Some(local), Some((_, normal, length))) = (local, area) else {
         return Frame { may_turn, share, bend, mean_normal, ..Frame::default() };
     };
-    let centroid = if asked.centroids { local.centroid(normal, length) } else { DVec3::ZERO };
+    let centroid = match asked {
+        Asked { centroids: false, .. } => DVec3::ZERO,
+        Asked { normals: Some(_), .. } => local.mean(),
+        _ => local.centroid(normal, length),
+    };
     Frame {
         share,
         bend,

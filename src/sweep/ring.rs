@@ -131,7 +131,7 @@ pub(crate) trait Face<V: Vector>: Copy {
     /// The interior angle as Gauss and Bonnet need it: those of a triangle sum up to π and those of a polygon to
     /// `(n − 2)π`, slivers, edges without length and polygons that are not flat included.
     fn flat_angle(&self, corner: &Corner<V, Self>) -> V;
-    /// Where the face is not a triangle: from the vertex to its centroid, the mean of the normals of its corners, and 1;
+    /// Where the face is not a triangle: from the vertex to the mean of its corners, the mean of their normals, and 1;
     /// elsewhere zeros. `None` in a mesh of triangles.
     fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)>;
 }
@@ -345,7 +345,8 @@ pub(crate) struct Polygon<V> {
     pub normal: Vector3<V>,
     /// Area.
     pub area: V,
-    /// From the vertex to the centroid; zero where no estimator asks for it.
+    /// From the vertex to the centroid, or to the mean of the corners (see [`Face::centre`]); zero where no estimator asks
+    /// for it.
     pub centroid: Vector3<V>,
     /// One by the number of corners.
     pub share: V,

@@ -210,3 +210,60 @@ pub fn fan(count: usize, closed: bool, seed: u64) -> Mesh {
     let faces = (0..triangles).map(|i| vec![0, 1 + i as u32, 1 + ((i + 1) % count) as u32]).collect();
     Mesh::new(&format!("fan {count}"), positions, faces)
 }
+
+/// The surface of a cube cut into `side * side` quads a face, pushed to the unit sphere; jittered, so that the quads are
+/// neither flat nor alike.
+pub fn quad_sphere(side: usize, jitter: f64, seed: u64) -> Mesh {
+    let mut random = Random::new(seed);
+    let (mut positions, mut places) = (vec![], HashMap::new());
+    let mut at = |place: [usize; 3]| {
+        *places.entry(place).or_insert_with(|| {
+            let moved = place.map(|i| 2.0 * i as f64 / side as f64 - 1.0 + jitter * random.signed() / side as f64);
+            positions.push(unit(moved));
+            positions.len() as u32 - 1
+        })
+    };
+    let mut faces = vec![];
+    for axis in 0..3 {
+        for end in [0, side] {
+            for i in 0..side {
+                for j in 0..side {
+                    let mut place = |i: usize, j: usize| {
+                        let mut place = [end; 3];
+                        (place[(axis + 1) % 3], place[(axis + 2) % 3]) = (i, j);
+                        at(place)
+                    };
+                    let mut quad = vec![place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+                    if end == 0 {
+                        quad.reverse();
+                    }
+                    faces.push(quad);
+                }
+            }
+        }
+    }
+    Mesh::new(&format!("quad sphere {side}"), positions, faces)
+}
+
+/// The dual of a closed mesh around the origin, on the unit sphere: a vertex for each face, and a polygon for each vertex.
+pub fn dual_sphere(mesh: &Mesh) -> Mesh {
+    let middle = |face: &[u32]| unit(face.iter().fold([0.0; 3], |sum, &v| add(sum, mesh.positions[v as usize])));
+    let mut after = vec![HashMap::new(); mesh.positions.len()];
+    for (index, face) in mesh.faces().enumerate() {
+        for (place, &vertex) in face.iter().enumerate() {
+            let (next, prev) = (face[(place + 1) % face.len()], face[(place + face.len() - 1) % face.len()]);
+            after[vertex as usize].insert(next, (prev, index as u32));
+        }
+    }
+    let around = |ring: &HashMap<u32, (u32, u32)>| {
+        let start = *ring.keys().min().unwrap();
+        let (mut at, mut face) = (start, vec![]);
+        while face.is_empty() || at != start {
+            let (prev, index) = ring[&at];
+            face.push(index);
+            at = prev;
+        }
+        face
+    };
+    Mesh::new(&format!("dual {}", mesh.name), mesh.faces().map(middle).collect(), after.iter().map(around).collect())
+}

@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 pub mod capi;
+pub mod curvature;
+pub mod linear;
 pub mod mesh;
 pub mod oracle;
 pub mod random;
