@@ -93,6 +93,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
 	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)
