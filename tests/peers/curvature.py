@@ -19,10 +19,10 @@ First, on these meshes, what is defined alike:
 The tolerance is 1e-9 for libigl. VCG keeps angles and areas in single precision whatever it was built for: 1e-6. A
 vertex that differs by more has to have one of these causes, each computed from the mesh, or the comparison fails:
 
-    turning    the difference is what the definitions differ by. umbilic's angle defect is 2 pi for each closed and pi for
-               each open fan less the angles, and 0 where no face is; libigl's is 2 pi less the angles at any vertex.
-               VCG's is 2 pi less the angles less the angle between the two border edges of each open fan, where
-               winding does not end a fan as it does in umbilic
+    turning    the difference is what the definitions differ by. umbilic's angle defect is 2 pi for each closed and pi
+               for each open fan less the angles, and 0 where no face is; libigl's is 2 pi less the angles at any
+               vertex. VCG's is 2 pi less the angles less the angle between the two border edges of each open fan,
+               where winding does not end a fan as it does in umbilic
     rounding   the difference is within the rounding error of the peer's arithmetic, which takes cotangents from
                squared edge lengths and Heron's formula (libigl), or from angles in single precision (VCG)
     sliver     a triangle at the vertex is so thin that this arithmetic keeps no digit of what it adds; VCG leaves
@@ -92,7 +92,7 @@ class Fans:
         return connected_components(graph, directed=False)[1]
 
     def border_angles(self, labels):
-        """The sum of the angles between the two border edges of fans, once for each border halfedge from the vertex."""
+        """The sum of the angles between the two border edges of fans, for each border halfedge from the vertex."""
         start, end = self.triangles.ravel(), numpy.roll(self.triangles, -1, 1).ravel()
         total, directions = numpy.zeros(len(self.positions)), {}
         for corner in self.border:
