@@ -92,7 +92,7 @@ class Fans:
         return connected_components(graph, directed=False)[1]
 
     def border_angles(self, labels):
-        """The sum of the angles between the two border edges of fans, for each border halfedge from the vertex."""
+        """The angles between the two border edges of fans, summed over the border halfedges from the vertex."""
         start, end = self.triangles.ravel(), numpy.roll(self.triangles, -1, 1).ravel()
         total, directions = numpy.zeros(len(self.positions)), {}
         for corner in self.border:
