@@ -129,6 +129,10 @@ def verdict(cases):
     return f"{says} ({won} of {of})"
 
 
+def count(cases):
+    return "{} of {}".format(*cases)
+
+
 def sum_of(cases):
     return tuple(map(sum, zip(*cases)))
 
@@ -159,7 +163,7 @@ def conclusions(figures):
     )
     others = "; ".join(
         f"than `{name}` in "
-        + ", ".join("{} of {}".format(*figures.wins([kind], "conformal", name)) + f" on {TITLES[kind]}" for kind in KINDS)
+        + ", ".join(f"{count(figures.wins([kind], 'conformal', name))} on {TITLES[kind]}" for kind in KINDS)
         for name in ("max", "inverse-root-edges")
     )
     winners = "; ".join(f"`{name}` on {', '.join(cases)}" for name, cases in best.items())
