@@ -14,12 +14,13 @@ CMAKE_BUILD := target/examples
 VENV := target/venv
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench header packages clean FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals of a mesh: a table, a PLY and a picture in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make bench [BENCH=...]    every weight and the topology build against a plain C scatter loop"
+	@echo "make accuracy             orders of convergence on smooth surfaces: docs/accuracy.md anew"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
@@ -93,6 +94,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
 	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)
@@ -116,6 +118,9 @@ bench: $(LIBRARY)
 	$(CC) -std=c11 -O3 -march=native -Wall -Wextra -Wpedantic -Werror -Iinclude benches/normals.c \
 	  -o target/bench/normals -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
 	target/bench/normals $(BENCH)
+
+accuracy: $(LIBRARY) $(VENV)/done
+	$(VENV)/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
 
 header:
 	UPDATE_HEADER=1 $(CARGO) test --test header

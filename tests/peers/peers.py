@@ -21,7 +21,6 @@ one of these causes, each computed from the mesh, or the comparison fails:
                and pi it keeps half the digits
 """
 
-import ctypes
 import sys
 from importlib.metadata import version
 from pathlib import Path
@@ -29,71 +28,11 @@ from pathlib import Path
 import igl
 import numpy
 import pymeshlab
+from umbilic import DEGENERATE, FALLBACK, ISOLATED, Umbilic
 
-WEIGHTS = {"uniform": 1, "angle": 2, "area": 3, "max": 4}  # UMB_WEIGHT_
-SCALARS = {"f32": (numpy.float32, 0, 1e-6), "f64": (numpy.float64, 1, 1e-12)}  # with UMB_SCALAR_ and tolerance
-ISOLATED, FALLBACK, DEGENERATE = 8, 16, 32  # UMB_VERTEX_
+SCALARS = {"f32": (numpy.float32, 1e-6), "f64": (numpy.float64, 1e-12)}  # with tolerance
 CAUSES = ("isolated", "cancelled", "rounding", "acos")
 ROUNDING = 2 * numpy.finfo(float).eps  # what a term of a few operations may lose, relative to its operands
-
-
-# umbilic through its C interface: see include/umbilic.h for what the fields mean.
-
-u32, size, pointer = ctypes.c_uint32, ctypes.c_size_t, ctypes.c_void_p
-
-
-def struct(name, **fields):
-    return type(name, (ctypes.Structure,), {"_fields_": list(fields.items())})
-
-
-Faces = struct("Faces", indices=pointer, index_count=size, offsets=pointer, face_count=size, index=u32, arity=u32)
-Points = struct("Points", data=pointer, count=size, stride=size, scalar=u32, reserved=u32)
-Run = struct("Run", threads=u32, simd=u32, vertices=pointer, vertex_count=size, progress=pointer, user=pointer)
-Options = struct("Options", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32)
-Output = struct("Output", data=pointer, stride=size, scalar=u32, reserved=u32)
-StatusOutput = struct("StatusOutput", data=pointer, stride=size)
-Outputs = struct("Outputs", struct_size=u32, reserved=u32, normal=Output, sum=Output, status=StatusOutput)
-Error = struct("Error", struct_size=u32, status=ctypes.c_int32, element=ctypes.c_uint64, message=ctypes.c_char * 240)
-
-
-class Umbilic:
-    def __init__(self, path):
-        self.library = ctypes.CDLL(str(path))
-        self.library.umb_topology_destroy.argtypes = [pointer]
-        self.library.umb_topology_destroy.restype = None
-        self.library.umb_build_info.restype = ctypes.c_char_p
-
-    def build_info(self):
-        return self.library.umb_build_info().decode()
-
-    def call(self, function, *arguments):
-        error = Error(struct_size=ctypes.sizeof(Error))
-        if getattr(self.library, function)(*arguments, ctypes.byref(error)) != 0:
-            raise RuntimeError(f"{function}: {error.message.decode()}")
-
-    def normals(self, positions, triangles, weight, scalar):
-        """Normals and statuses, by the topology's path."""
-        dtype, scalar, _ = SCALARS[scalar]
-        positions = numpy.ascontiguousarray(positions, dtype)
-        indices = numpy.ascontiguousarray(triangles, numpy.uint32)
-        normals = numpy.empty_like(positions)
-        statuses = numpy.empty(len(positions), numpy.uint8)
-        topology = pointer()
-        faces = Faces(indices=indices.ctypes.data, index_count=indices.size)
-        self.call("umb_topology_create", ctypes.byref(faces), size(len(positions)), None, ctypes.byref(topology))
-        points = Points(data=positions.ctypes.data, count=len(positions), scalar=scalar)
-        options = Options(struct_size=ctypes.sizeof(Options), weight=WEIGHTS[weight])
-        outputs = Outputs(
-            struct_size=ctypes.sizeof(Outputs),
-            normal=Output(data=normals.ctypes.data, scalar=scalar),
-            status=StatusOutput(data=statuses.ctypes.data),
-        )
-        try:
-            arguments = [ctypes.byref(struct) for struct in (points, options, outputs)]
-            self.call("umb_vertex_normals", topology, *arguments)
-        finally:
-            self.library.umb_topology_destroy(topology)
-        return normals.astype(float), statuses
 
 
 # The peers. Each answers with normals in double precision.
@@ -216,13 +155,14 @@ def explain(differences, statuses, tolerance, bounds, takes_acos):
 def compare(umbilic, name, positions, triangles):
     """Prints a line for each scalar and peer; answers with the numbers of comparisons that passed and failed."""
     passed = failed = 0
-    for scalar, (dtype, _, tolerance) in SCALARS.items():
+    for scalar, (dtype, tolerance) in SCALARS.items():
         rounded = positions.astype(dtype).astype(float)
         corners = Corners(rounded, triangles)
         for peer in (Libigl(rounded, triangles), Vcg(rounded, triangles)):
             largest, totals, bad = 0.0, dict.fromkeys(CAUSES, 0), []
             for weight in peer.weights:
-                normals, statuses = umbilic.normals(positions, triangles, weight, scalar)
+                with umbilic.mesh(triangles, len(positions)) as mesh:
+                    normals, statuses = mesh.normals(positions, weight, scalar)
                 theirs = peer.normals(weight)
                 differences = length(normals - theirs)
                 bounds = error_bounds(corners, weight)
@@ -232,8 +172,8 @@ def compare(umbilic, name, positions, triangles):
                 bad += [(weight, vertex, normals[vertex], theirs[vertex]) for vertex in unexplained]
                 passed, failed = passed + (len(unexplained) == 0), failed + (len(unexplained) != 0)
             outliers = "".join(f"{totals[cause]:10}" for cause in CAUSES)
-            mesh = f"{name:26}{len(positions):7}{len(triangles):7}"
-            print(f"{mesh}  {scalar} {peer.name:7}{largest:9.1e}{outliers}{len(bad):12}")
+            head = f"{name:26}{len(positions):7}{len(triangles):7}"
+            print(f"{head}  {scalar} {peer.name:7}{largest:9.1e}{outliers}{len(bad):12}")
             for weight, vertex, ours, theirs in bad[:5]:
                 print(f"    {weight}, vertex {vertex}: umbilic {ours}, {peer.name} {theirs}")
     return passed, failed
