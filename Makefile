@@ -21,6 +21,7 @@ help:
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make bench [BENCH=...]    every weight and the topology build against a plain C scatter loop"
 	@echo "make accuracy             orders of convergence on smooth surfaces: docs/accuracy.md anew"
+	@echo "make pictures             the pictures of the README"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
@@ -121,6 +122,12 @@ bench: $(LIBRARY)
 
 accuracy: $(LIBRARY) $(VENV)/done
 	$(VENV)/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
+
+# ---- the README's pictures ----
+
+pictures: $(LIBRARY) $(MESHES)
+	target/release/umbilic render $(MESHES)/elephant.off -o docs/elephant.png --color mean --size 640x560 --azimuth -10
+	target/release/umbilic render $(MESHES)/fandisk.off -o docs/fandisk.png --color k1 --size 640x560
 
 header:
 	UPDATE_HEADER=1 $(CARGO) test --test header

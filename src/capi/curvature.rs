@@ -40,15 +40,15 @@ pub const UMB_CURVATURE_QUADRIC: umb_curvature_method = 1;
 /// (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
 pub const UMB_CURVATURE_GOLDFEATHER: umb_curvature_method = 2;
 /// The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
-/// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (a grid of quads,
-/// whose edges run in two perpendicular directions), the point is taken to be as round as they allow
+/// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within a few degrees
+/// of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
 /// (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
 pub const UMB_CURVATURE_LEAST_SQUARES: umb_curvature_method = 3;
 /// Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
-/// faces at an edge. Does not converge on irregular meshes.
+/// faces at an edge. Does not converge, unless the edges stand at even angles.
 pub const UMB_CURVATURE_TAUBIN: umb_curvature_method = 4;
 /// Watanabe and Belyaev 2001: H and (3 H^2 - K)/2 as the means of sectional curvature and of its square, by the trapezoid rule
-/// over the angles of the faces. Does not converge on irregular meshes.
+/// over the angles of the faces. Does not converge, unless the edges stand at even angles.
 pub const UMB_CURVATURE_WATANABE: umb_curvature_method = 5;
 /// Meyer et al. 2003: H N by cotangents, K by the angle defect, both over the mixed Voronoi area (in polygons: by the
 /// Laplacian of Alexa and Wardetzky 2011, over an equal share of the area for each corner). At a boundary the integrals
@@ -61,7 +61,8 @@ pub const UMB_CURVATURE_ANGLE_DEFECT: umb_curvature_method = 7;
 /// the normals are better than first order.
 pub const UMB_CURVATURE_RUSINKIEWICZ: umb_curvature_method = 8;
 /// The normal cycle (Cohen-Steiner and Morvan 2003): dihedral angles along edges, over a region of `rings` (0: 1) or of
-/// `radius`. Edges of a single face have none, so values at a boundary are too small.
+/// `radius`. Edges of a single face have none, so values at a boundary are too small, and so are those on polygons that are
+/// not flat, whose twist no edge has. Converges over balls that shrink more slowly than the edges.
 pub const UMB_CURVATURE_NORMAL_CYCLE: umb_curvature_method = 9;
 /// Interpolated corrected curvature measures (Lachaud, Romon, Thibert and Coeurjolly 2020), over a region of `rings` (0: 1) or
 /// of `radius`. Converges if the normals do; exact on spheres with exact normals. H and K are the measures by the area; k1,

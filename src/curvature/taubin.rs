@@ -7,8 +7,8 @@
 //!
 //! Input: any ring of triangles or polygons. Reference: Taubin 1995, "Estimating the tensor of curvature of a surface from a
 //! polyhedral approximation", section 3; there κ is the circle's, here any section's.
-//! The integral assumes that the edges cover all directions evenly by area: the method does not converge on irregular
-//! meshes. Boundary: the open fan counts as it is, which is no full circle, so values there are rough. Degenerate rule:
+//! The sum is the integral only where the edges stand at even angles; elsewhere, even on a regular grid, the method does
+//! not converge. Boundary: the open fan counts as it is, which is no full circle, so values there are rough. Degenerate rule:
 //! edges without length, along the normal or without area are left out; a vertex with none left has no result.
 //! Cost: one root and three divisions a corner.
 

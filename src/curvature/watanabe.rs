@@ -5,7 +5,8 @@
 //! (the ring laid flat as in N_CM). Then `k = H ± √(H² − K)`.
 //!
 //! Input: any ring of triangles or polygons. Reference: Watanabe & Belyaev 2001, "Detection of salient curvature features on
-//! polygonal surfaces", equations 3 to 6. It gives no directions. Boundary: the mean over the open fan stands for that
+//! polygonal surfaces", equations 3 to 6. It gives no directions, and converges only where edges stand at
+//! even angles. Boundary: the mean over the open fan stands for that
 //! over the circle, which it is not unless the surface is round. Degenerate rule: a step at an edge without length or along
 //! the normal is left out; a vertex with none left has no result. Cost: an angle polynomial, a root and three divisions a
 //! corner.
