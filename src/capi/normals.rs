@@ -139,8 +139,8 @@ pub struct umb_face_outputs {
 /// @param error may be null
 ///
 /// Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`,
-/// `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`,
-/// `_CANCELLED`.
+/// `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OPTION_OUT_OF_RANGE`,
+/// `_OUT_OF_MEMORY`, `_CANCELLED`.
 /// @since 0.1.0
 #[unsafe(no_mangle)]
 #[must_use]
@@ -283,10 +283,11 @@ pub(super) fn weight(weight: umb_weight, degree: u32, rings: u32) -> Result<Weig
         UMB_WEIGHT_SINE => Weight::Sine,
         UMB_WEIGHT_ANGLE_EDGES => Weight::AngleEdges,
         UMB_WEIGHT_JET => {
-            let small = |what, value: u32| {
-                u8::try_from(value).map_err(|_| Error::UnknownConstant { what, value: value as u64 })
-            };
-            Weight::Jet(JetOptions { degree: small("degree", degree)?, rings: small("rings", rings)? })
+            let small = |what, value: u32| u8::try_from(value).map_err(|_| Error::OptionOutOfRange { what });
+            Weight::Jet(JetOptions {
+                degree: small("options.degree", degree)?,
+                rings: small("options.rings", rings)?,
+            })
         }
         value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
     })

@@ -36,13 +36,13 @@ impl JetFit {
     /// `condition` asks for [`Jet::condition`].
     ///
     /// # Errors
-    /// [`Error::UnknownConstant`] for a degree or a number of rings beyond what [`JetOptions`] says.
+    /// [`Error::OptionOutOfRange`] for a degree or a number of rings beyond what [`JetOptions`] says.
     pub(crate) fn new(options: JetOptions, condition: bool) -> Result<Self, Error> {
         for (what, value, most) in
-            [("degree", options.degree, MOST_DEGREE), ("rings", options.rings, MOST_RINGS as u8)]
+            [("options.degree", options.degree, MOST_DEGREE), ("options.rings", options.rings, MOST_RINGS as u8)]
         {
             if value > most {
-                return Err(Error::UnknownConstant { what, value: value as u64 });
+                return Err(Error::OptionOutOfRange { what });
             }
         }
         let degree = if options.degree == 0 { 3 } else { options.degree as usize };

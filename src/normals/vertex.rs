@@ -64,8 +64,9 @@ impl NormalOutputs<'_> {
 /// precision.
 ///
 /// # Errors
-/// [`Error::UnknownConstant`] for a [`Weight::Jet`] with options out of range; [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`]; [`Error::IndexOutOfRange`] for a vertex to
-/// compute that is none; [`Error::Cancelled`]; [`Error::OutOfMemory`].
+/// [`Error::OptionOutOfRange`] for a [`Weight::Jet`] with options out of range; [`Error::Size`] where counts do not fit;
+/// [`Error::NonFinitePosition`]; [`Error::IndexOutOfRange`] for a vertex to compute that is none; [`Error::Cancelled`];
+/// [`Error::OutOfMemory`].
 pub fn vertex_normals(
     topology: &Topology,
     points: &Points<'_>,
