@@ -1,7 +1,7 @@
 /*
  * umbilic: vertex normals of polygon meshes and curvatures of polylines, on the caller's own memory.
  *
- * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals are then computed from positions as
+ * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed from positions as
  * often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
  * are never kept or copied whole.
  *
@@ -1107,21 +1107,21 @@ typedef struct umb_polyline_outputs {
 
 /**
  * The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
- * `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (a grid of quads,
- * whose edges run in two perpendicular directions), the point is taken to be as round as they allow
+ * `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within a few degrees
+ * of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
  * (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
  */
 #define UMB_CURVATURE_LEAST_SQUARES 3
 
 /**
  * Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
- * faces at an edge. Does not converge on irregular meshes.
+ * faces at an edge. Does not converge, unless the edges stand at even angles.
  */
 #define UMB_CURVATURE_TAUBIN 4
 
 /**
  * Watanabe and Belyaev 2001: H and (3 H^2 - K)/2 as the means of sectional curvature and of its square, by the trapezoid rule
- * over the angles of the faces. Does not converge on irregular meshes.
+ * over the angles of the faces. Does not converge, unless the edges stand at even angles.
  */
 #define UMB_CURVATURE_WATANABE 5
 
@@ -1146,7 +1146,8 @@ typedef struct umb_polyline_outputs {
 
 /**
  * The normal cycle (Cohen-Steiner and Morvan 2003): dihedral angles along edges, over a region of `rings` (0: 1) or of
- * `radius`. Edges of a single face have none, so values at a boundary are too small.
+ * `radius`. Edges of a single face have none, so values at a boundary are too small, and so are those on polygons that are
+ * not flat, whose twist no edge has. Converges over balls that shrink more slowly than the edges.
  */
 #define UMB_CURVATURE_NORMAL_CYCLE 9
 
@@ -1380,8 +1381,8 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
  * @param error may be null
  *
  * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`,
- * `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`,
- * `_CANCELLED`.
+ * `_SIZE`, `_INDEX_OUT_OF_RANGE` (element: place in `vertices`), `_NON_FINITE` (element: vertex), `_OPTION_OUT_OF_RANGE`,
+ * `_OUT_OF_MEMORY`, `_CANCELLED`.
  * @since 0.1.0
  */
 UMB_API
