@@ -13,6 +13,7 @@
 //!
 //! Which way a vertex goes depends on its own ring and nothing else.
 
+mod calls;
 mod frames;
 mod patch;
 mod ring;
@@ -24,9 +25,10 @@ pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};
 use crate::parallel::{Claims, Run, for_each_chunk};
-use crate::simd::{Real, Task, Vector, Vector3, Width, dispatch};
+use crate::simd::{Task, Vector, Vector3, Width, dispatch};
 use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
+use calls::{AloneCalls, BlockCalls};
 use frames::{Asked, Frames};
 use glam::DVec3;
 use ring::{Polygon, PolygonFaces, Triangles};
@@ -203,39 +205,56 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
         }
     };
     let large = Mutex::new(LargeRows::new(large)?);
-    let sweep = Sweep { topology, points, frames, normals, vertices, double, quantity, large: &large };
-    for_each_chunk(run, chunks, |claims| dispatch(level, Worker { sweep: &sweep, claims }))
+    let sweep = Sweep { topology, points, frames, normals, vertices, double, large: &large };
+    for_each_chunk(run, chunks, |claims| dispatch(level, Start { sweep: &sweep, quantity, claims }))
 }
 
-struct Sweep<'a, Q, S> {
+struct Sweep<'a, S> {
     topology: &'a Topology,
     points: &'a StridedPoints<'a, S>,
     frames: Option<Frames<'a, S>>,
     normals: Option<StridedPoints<'a, f64>>,
     vertices: Option<&'a [u32]>,
     double: bool,
-    quantity: &'a Q,
     /// For vertices with more edges than [`LaneRows`] hold.
     large: &'a Mutex<LargeRows>,
 }
 
-/// One thread's part of a sweep.
-struct Worker<'a, 'c, 'p, 's, Q, S> {
-    sweep: &'a Sweep<'a, Q, S>,
+/// One thread's part of a sweep, before the quantity's type is forgotten.
+struct Start<'a, 'c, 'p, 's, Q, S> {
+    sweep: &'a Sweep<'a, S>,
+    quantity: &'a Q,
     claims: &'c mut Claims<'s, 'p>,
 }
 
-impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
+impl<Q: Quantity, S: Coordinate> Task for Start<'_, '_, '_, '_, Q, S> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        let sweep = self.sweep;
-        let single = !sweep.double && sweep.frames.is_none();
+        let Start { sweep, quantity, claims } = self;
+        let calls: &dyn BlockCalls<W> = quantity;
+        W::call(Worker { sweep, calls, claims });
+    }
+}
+
+/// One thread's part of a sweep.
+struct Worker<'a, 'c, 'p, 's, W, S> {
+    sweep: &'a Sweep<'a, S>,
+    calls: &'a dyn BlockCalls<W>,
+    claims: &'c mut Claims<'s, 'p>,
+}
+
+impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
+    /// The width is that of `calls`.
+    #[inline(always)]
+    fn run<Same: Width>(self) {
+        let Worker { sweep, calls, claims } = self;
+        let single = !sweep.double && sweep.frames.is_none() && calls.has_single();
         let mut single_rows = LaneRows::<W::Single>::new();
         let mut double_rows = LaneRows::<W::Double>::new();
         let mut alone_rows = LaneRows::<f64>::new();
         let mut batch = Batch::new();
         let mut doubtful = [0u32; WINDOW];
-        while let Some(chunk) = self.claims.next() {
+        while let Some(chunk) = claims.next() {
             match sweep.vertices {
                 None => sweep.topology.rings().fill_window(chunk, &mut batch),
                 Some(list) => {
@@ -248,19 +267,20 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                 let mut vertices = vertices;
                 let (corners, closed) = match class {
                     RingClass::Isolated => {
-                        vertices.iter().for_each(|&vertex| sweep.quantity.isolated(vertex as usize));
+                        vertices.iter().for_each(|&vertex| calls.isolated(vertex as usize));
                         continue;
                     }
                     RingClass::Alone => {
-                        vertices.iter().for_each(|&vertex| sweep.alone(vertex as usize, &mut alone_rows));
+                        vertices.iter().for_each(|&vertex| sweep.alone(calls, vertex as usize, &mut alone_rows));
                         continue;
                     }
                     RingClass::Lanes { corners, closed } => (corners, closed),
                 };
-                if Q::SINGLE && single {
+                if single {
                     let mut count = 0;
                     for block in vertices.chunks(W::Single::LANES) {
-                        let bits = sweep.block::<W, _>(block, corners, closed, &mut single_rows);
+                        let (ring, scale, _, mut scratch) = sweep.load(block, corners, closed, &mut single_rows);
+                        let bits = calls.single(block, &ring, &scale, &mut scratch);
                         if bits != 0 {
                             for (_, &vertex) in block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0) {
                                 doubtful[count] = vertex;
@@ -271,11 +291,17 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     vertices = &doubtful[..count];
                 }
                 for block in vertices.chunks(W::Double::LANES) {
-                    let bits = sweep.block::<W, _>(block, corners, closed, &mut double_rows);
+                    let (ring, scale, faces, mut scratch) = sweep.load(block, corners, closed, &mut double_rows);
+                    let bits = if let Some(frames) = &sweep.frames {
+                        sweep.load_faces(frames, calls.centroids(), block, scale, faces);
+                        calls.polygons(block, &ring.with_faces(PolygonFaces(faces)), &scale, &mut scratch)
+                    } else {
+                        calls.triangles(block, &ring, &scale, &mut scratch)
+                    };
                     if bits != 0 {
                         for (lane, &vertex) in block.iter().enumerate() {
                             if bits & 1 << lane != 0 {
-                                sweep.alone(vertex as usize, &mut alone_rows);
+                                sweep.alone(calls, vertex as usize, &mut alone_rows);
                             }
                         }
                     }
@@ -285,10 +311,18 @@ impl<Q: Quantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     }
 }
 
-impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
+impl<S: Coordinate> Sweep<'_, S> {
+    /// Loads the rings of a block, in their own units, of which so many make one of the mesh; also a face for each corner
+    /// to be filled where they are not triangles, and the estimator's scratch.
     #[inline(always)]
-    fn block<W: Width, V: Vector>(&self, block: &[u32], corners: usize, closed: bool, rows: &mut LaneRows<V>) -> u32 {
-        let Rows { edges, squared, normals, faces, mut scratch } = rows.rows();
+    fn load<'r, V: Vector>(
+        &self,
+        block: &[u32],
+        corners: usize,
+        closed: bool,
+        rows: &'r mut LaneRows<V>,
+    ) -> (Ring<'r, V, Triangles>, V, &'r mut [Polygon<V>], Scratch<'r, V>) {
+        let Rows { edges, squared, normals, faces, scratch } = rows.rows();
         let edges = &mut edges[..corners + 1];
         let squared = &mut squared[..corners + 1];
         let normals: &[_] = match &self.normals {
@@ -305,27 +339,25 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
         }
         let scale = extent.unit_scale();
         scale_edges(edges, squared, scale);
-        // Only double precision computes polygons, so single precision never compiles that path.
-        if let (false, Some(frames)) = (V::Scalar::SINGLE, &self.frames) {
-            let faces = &mut faces[..corners];
-            self.load_faces(frames, block, scale, faces);
-            let ring = Ring { edges, squared, closed, faces: PolygonFaces(faces), normals };
-            call::<W, _, _, _>(self.quantity, block, &ring, scale, &mut scratch)
-        } else {
-            let ring = Ring { edges, squared, closed, faces: Triangles, normals };
-            call::<W, _, _, _>(self.quantity, block, &ring, scale, &mut scratch)
-        }
+        (Ring { edges, squared, closed, faces: Triangles, normals }, scale, &mut faces[..corners], scratch)
     }
 
     /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.
     #[inline(always)]
-    fn load_faces<V: Vector>(&self, frames: &Frames<'_, S>, block: &[u32], scale: V, faces: &mut [Polygon<V>]) {
+    fn load_faces<V: Vector>(
+        &self,
+        frames: &Frames<'_, S>,
+        centroids: bool,
+        block: &[u32],
+        scale: V,
+        faces: &mut [Polygon<V>],
+    ) {
         let scales = scale.to_lanes();
         for (corner, face) in faces.iter_mut().enumerate() {
             let lane = |lane: usize| {
                 let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
                 let index = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
-                self.load_face(frames, index, vertex, 1.0, scales[lane].into())
+                self.load_face(frames, centroids, index, vertex, 1.0, scales[lane].into())
             };
             *face = Polygon::from_lanes(lane);
         }
@@ -333,13 +365,21 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
 
     /// A face as a vertex sees it, in units of `scale` to a length of the mesh times `factor`.
     #[inline(always)]
-    fn load_face(&self, frames: &Frames<'_, S>, face: usize, vertex: usize, factor: f64, scale: f64) -> Polygon<f64> {
+    fn load_face(
+        &self,
+        frames: &Frames<'_, S>,
+        centroids: bool,
+        face: usize,
+        vertex: usize,
+        factor: f64,
+        scale: f64,
+    ) -> Polygon<f64> {
         let frame = frames.get(face);
         // A face may be larger than the ring by any amount, but its square must stay in range.
         const LARGEST: f64 = (1u128 << 100) as f64;
         let size = (frame.size * factor * scale).min(LARGEST);
         let mut centroid = DVec3::ZERO;
-        if Q::CENTROIDS {
+        if centroids {
             let point = |vertex: usize| self.points.get(vertex) * factor;
             let offset = frame.centroid * factor + (point(frames.first_corner(face) as usize) - point(vertex));
             centroid = offset * scale;
@@ -357,15 +397,15 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
 
     /// The vertex-by-vertex path.
     #[inline(never)]
-    fn alone(&self, vertex: usize, rows: &mut LaneRows<f64>) {
+    fn alone(&self, calls: &dyn AloneCalls, vertex: usize, rows: &mut LaneRows<f64>) {
         if self.topology.edges_alone(vertex) <= LANE_EDGES {
-            self.alone_in(vertex, rows.rows());
+            self.alone_in(calls, vertex, rows.rows());
         } else {
-            self.alone_in(vertex, self.large.lock().unwrap_or_else(PoisonError::into_inner).rows());
+            self.alone_in(calls, vertex, self.large.lock().unwrap_or_else(PoisonError::into_inner).rows());
         }
     }
 
-    fn alone_in(&self, vertex: usize, rows: Rows<'_, f64>) {
+    fn alone_in(&self, calls: &dyn AloneCalls, vertex: usize, rows: Rows<'_, f64>) {
         let Rows { edges, squared, normals, faces, mut scratch } = rows;
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
@@ -391,16 +431,16 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             for fan in self.topology.fans(vertex) {
                 for corner in 0..fan.corner_count {
                     let face = frames.face_of(ring_start + fan.start + corner);
-                    faces[corners] = self.load_face(frames, face, vertex, factor, scale);
+                    faces[corners] = self.load_face(frames, calls.centroids(), face, vertex, factor, scale);
                     corners += 1;
                 }
             }
             let fans =
                 VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(&faces[..corners]), normals);
-            self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
+            calls.alone_polygons(vertex, &fans, scale * factor, &mut scratch);
         } else {
             let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles, normals);
-            self.quantity.alone(vertex, &fans, scale * factor, &mut scratch);
+            calls.alone_triangles(vertex, &fans, scale * factor, &mut scratch);
         }
     }
 
@@ -431,36 +471,6 @@ impl<Q: Quantity, S: Coordinate> Sweep<'_, Q, S> {
             }
         }
         (count, edges[..count].iter().fold(0.0, |extent, edge| edge.largest_component().max(extent)))
-    }
-}
-
-/// [`Quantity::block`] as a function of its own, which positions of either precision share.
-#[inline(always)]
-fn call<W: Width, Q: Quantity, V: Vector, F: RingFaces<V>>(
-    quantity: &Q,
-    vertices: &[u32],
-    ring: &Ring<'_, V, F>,
-    scale: V,
-    scratch: &mut Scratch<'_, V>,
-) -> u32 {
-    let mut untrusted = 0;
-    W::call(Block { quantity, vertices, ring, scale, scratch, untrusted: &mut untrusted });
-    untrusted
-}
-
-struct Block<'a, 'r, 's, Q, V, F> {
-    quantity: &'a Q,
-    vertices: &'a [u32],
-    ring: &'a Ring<'r, V, F>,
-    scale: V,
-    scratch: &'a mut Scratch<'s, V>,
-    untrusted: &'a mut u32,
-}
-
-impl<Q: Quantity, V: Vector, F: RingFaces<V>> Task for Block<'_, '_, '_, Q, V, F> {
-    #[inline(always)]
-    fn run<W: Width>(self) {
-        *self.untrusted = self.quantity.block(self.vertices, self.ring, self.scale, self.scratch);
     }
 }
 

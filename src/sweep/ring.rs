@@ -21,11 +21,17 @@ pub(crate) struct Ring<'a, V, F> {
     pub normals: &'a [Vector3<V>],
 }
 
-impl<V: Vector, F: RingFaces<V>> Ring<'_, V, F> {
+impl<'a, V: Vector, F: RingFaces<V>> Ring<'a, V, F> {
     /// The number of corners, one fewer than [`Ring::edges`].
     #[inline(always)]
     pub fn corner_count(&self) -> usize {
         self.edges.len() - 1
+    }
+
+    /// The ring with other faces.
+    pub fn with_faces<G>(self, faces: G) -> Ring<'a, V, G> {
+        let Ring { edges, squared, closed, normals, .. } = self;
+        Ring { edges, squared, closed, faces, normals }
     }
 
     /// The number of different edges.

@@ -1,0 +1,152 @@
+//! A quantity without its type, so that the loop and its loaders are compiled once for each vector width and precision of
+//! positions, and not again for every estimator. Only blocks and lone vertices know the estimator; a virtual call leads to
+//! each, which costs nothing beside what it does.
+
+use super::Quantity;
+use super::ring::{PolygonFaces, Ring, RingFaces, Scratch, Triangles, VertexFans};
+use crate::simd::{Task, Vector, Width};
+
+/// What a vertex-by-vertex path calls.
+pub(super) trait AloneCalls {
+    /// [`Quantity::CENTROIDS`]
+    fn centroids(&self) -> bool;
+    /// [`Quantity::alone`] in a mesh of triangles.
+    fn alone_triangles(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, Triangles>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    );
+    /// [`Quantity::alone`] in a mesh that has other faces.
+    fn alone_polygons(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, PolygonFaces<'_, f64>>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    );
+    /// [`Quantity::isolated`]
+    fn isolated(&self, vertex: usize);
+}
+
+/// What the loop of a width calls. Scales are handed by reference, since a vector cannot be handed by value to what lacks its
+/// CPU features.
+pub(super) trait BlockCalls<W: Width>: AloneCalls {
+    /// [`Quantity::SINGLE`]
+    fn has_single(&self) -> bool;
+    /// [`Quantity::block`] in single precision; its mesh is one of triangles.
+    fn single(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Single, Triangles>,
+        scale: &W::Single,
+        scratch: &mut Scratch<'_, W::Single>,
+    ) -> u32;
+    /// [`Quantity::block`] in double precision, in a mesh of triangles.
+    fn triangles(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, Triangles>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32;
+    /// [`Quantity::block`] in a mesh that has other faces.
+    fn polygons(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32;
+}
+
+impl<Q: Quantity> AloneCalls for Q {
+    fn centroids(&self) -> bool {
+        Q::CENTROIDS
+    }
+    fn alone_triangles(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, Triangles>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        self.alone(vertex, fans, scale, scratch);
+    }
+    fn alone_polygons(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, PolygonFaces<'_, f64>>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        self.alone(vertex, fans, scale, scratch);
+    }
+    fn isolated(&self, vertex: usize) {
+        Quantity::isolated(self, vertex);
+    }
+}
+
+impl<W: Width, Q: Quantity> BlockCalls<W> for Q {
+    fn has_single(&self) -> bool {
+        Q::SINGLE
+    }
+    fn single(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Single, Triangles>,
+        scale: &W::Single,
+        scratch: &mut Scratch<'_, W::Single>,
+    ) -> u32 {
+        // A quantity that is never computed in single precision is not compiled for it.
+        if Q::SINGLE { call::<W, Q, _, _>(self, vertices, ring, scale, scratch) } else { 0 }
+    }
+    fn triangles(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, Triangles>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32 {
+        call::<W, Q, _, _>(self, vertices, ring, scale, scratch)
+    }
+    fn polygons(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32 {
+        call::<W, Q, _, _>(self, vertices, ring, scale, scratch)
+    }
+}
+
+/// [`Quantity::block`] in a function that has the features of the width.
+fn call<W: Width, Q: Quantity, V: Vector, F: RingFaces<V>>(
+    quantity: &Q,
+    vertices: &[u32],
+    ring: &Ring<'_, V, F>,
+    scale: &V,
+    scratch: &mut Scratch<'_, V>,
+) -> u32 {
+    let mut untrusted = 0;
+    W::call(Block { quantity, vertices, ring, scale, scratch, untrusted: &mut untrusted });
+    untrusted
+}
+
+struct Block<'a, 'r, 's, Q, V, F> {
+    quantity: &'a Q,
+    vertices: &'a [u32],
+    ring: &'a Ring<'r, V, F>,
+    scale: &'a V,
+    scratch: &'a mut Scratch<'s, V>,
+    untrusted: &'a mut u32,
+}
+
+impl<Q: Quantity, V: Vector, F: RingFaces<V>> Task for Block<'_, '_, '_, Q, V, F> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        *self.untrusted = self.quantity.block(self.vertices, self.ring, *self.scale, self.scratch);
+    }
+}
