@@ -481,14 +481,14 @@ fn only_positions_that_are_needed_can_be_to_blame() {
         let (status, _, found) = call(&mesh, set);
         assert_eq!(status, UMB_OK);
         assert!(found[0] == good[0]);
-        // A ring that was not asked for and would be of use is left out.
+        // A ring that was not asked for and would be of use is left out; what two rings have is enough for degree 2.
         let wider = |options: &mut umb_normal_options| {
             set(options);
             options.degree = 4;
         };
         let (status, _, found) = call(&mesh, wider);
         assert_eq!(status, UMB_OK);
-        assert!((length(found[0]) - 1.0).abs() < 1e-15, "{:?}", found[0]);
+        assert!(found[0] == good[0]);
         // Without a list everything counts.
         assert_eq!(call(&mesh, |_| ()).0, UMB_ERROR_NON_FINITE);
     }
@@ -500,16 +500,17 @@ fn progress_runs_from_0_to_1_and_can_cancel() {
         last: f64,
         calls: usize,
         cancel_at: f64,
+        upwards: bool,
     }
     unsafe extern "C" fn progress(user: *mut c_void, fraction: f64) -> c_int {
         let seen = unsafe { &mut *user.cast::<Seen>() };
-        assert!(fraction >= seen.last && fraction <= 1.0, "{} after {}", fraction, seen.last);
+        seen.upwards &= (seen.last..=1.0).contains(&fraction);
         (seen.last, seen.calls) = (fraction, seen.calls + 1);
         (fraction >= seen.cancel_at) as c_int
     }
     let mesh = mesh::torus(80, 60, 0.2, 0.0, 1);
     for (cancel_at, expected) in [(2.0, UMB_OK), (0.0, UMB_ERROR_CANCELLED), (0.5, UMB_ERROR_CANCELLED)] {
-        let mut seen = Seen { last: 0.0, calls: 0, cancel_at };
+        let mut seen = Seen { last: 0.0, calls: 0, cancel_at, upwards: true };
         let user = (&raw mut seen).cast();
         let set = |options: &mut umb_normal_options| {
             options.run.progress = Some(progress);
@@ -517,6 +518,7 @@ fn progress_runs_from_0_to_1_and_can_cancel() {
         };
         let status = call(&mesh, set).0;
         assert_eq!(status, expected);
+        assert!(seen.upwards);
         assert!(expected != UMB_OK || (seen.last == 1.0 && seen.calls > 10));
     }
 }

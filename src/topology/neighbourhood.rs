@@ -324,8 +324,11 @@ mod tests {
         let fan: Vec<Vec<u32>> = (0..RIM).map(|rim| vec![RIM, rim, (rim + 1) % RIM]).collect();
         let polygon = vec![(0..RIM).collect::<Vec<u32>>()];
         let mut below = random(5);
-        let dense: Vec<Vec<u32>> = (0..20_000).map(|_| (0..4).map(|_| below(400) as u32).collect()).collect();
-        for faces in [fan, polygon, dense] {
+        let mut dense = |vertices: u64| -> Vec<Vec<u32>> {
+            (0..20_000).map(|_| (0..4).map(|_| below(vertices) as u32).collect()).collect()
+        };
+        // One that fills a neighbourhood at once, and one that has too few vertices for that but many ways to each.
+        for faces in [fan, polygon, dense(400), dense(200)] {
             let vertex_count = *faces.iter().flatten().max().unwrap() as usize + 1;
             let topology = topology(&faces, vertex_count);
             let mut neighbourhood = Neighbourhood::new();
@@ -353,6 +356,13 @@ mod tests {
         neighbourhood.gather = u32::MAX - 1;
         for _ in 0..4 {
             assert_eq!(neighbourhood.gather(&topology, 0, 1), [1, 2]);
+            assert_eq!(neighbourhood.gather(&topology, 3, 2), [2, 1, 0]);
+        }
+        // Entries of the first gather, then the second first gather; and an empty table, which must not look like vertex 0.
+        for before in [Some(0), None] {
+            let mut neighbourhood = Neighbourhood::new();
+            before.map(|vertex| neighbourhood.gather(&topology, vertex, 2).len());
+            neighbourhood.gather = u32::MAX;
             assert_eq!(neighbourhood.gather(&topology, 3, 2), [2, 1, 0]);
         }
     }
