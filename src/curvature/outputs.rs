@@ -268,9 +268,12 @@ impl<V: Vector> Local<V> {
 
 /// What every lane of a [`Local`] found, in rows of numbers: so that what writes results is compiled once and not for every
 /// estimator and vector width.
-pub(crate) struct Rows([[f64; MAX_LANES]; ROWS]);
+pub(crate) struct Rows([[f64; LANES]; ROWS]);
 
 const ROWS: usize = 18;
+
+/// The most lanes of `f64`.
+const LANES: usize = 8;
 
 impl<V: Vector> Local<V> {
     /// The lanes as numbers.
@@ -297,7 +300,13 @@ impl<V: Vector> Local<V> {
             mean.y,
             mean.z,
         ];
-        Rows(rows.map(|row| row.to_lanes().map(Into::into)))
+        let mut numbers = [[0.0; LANES]; ROWS];
+        for (numbers, row) in numbers.iter_mut().zip(rows) {
+            for (number, lane) in numbers.iter_mut().zip(row.to_lanes()).take(V::LANES) {
+                *number = lane.into();
+            }
+        }
+        Rows(numbers)
     }
 
     /// Lanes where something had to be filled in.
@@ -329,45 +338,46 @@ impl CurvatureOutputs<'_> {
     /// Writes a block.
     #[inline(never)]
     pub(crate) fn write(&self, block: &Block<'_>, rows: &Rows) {
-        for (lane, &vertex) in block.vertices.iter().enumerate() {
-            if block.lanes & 1 << lane != 0 {
-                let fallback = if block.fallbacks & 1 << lane != 0 { status::FALLBACK } else { 0 };
-                self.write_vertex(vertex as usize, lane, block, rows, fallback);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn write_vertex(&self, vertex: usize, lane: usize, block: &Block<'_>, rows: &Rows, fallback: u8) {
-        let scale = block.scales[lane];
-        let [k1, k2, mean, gaussian, area, integrated_mean, integrated_gaussian, residual, condition, ..] =
-            rows.0.each_ref().map(|row| row[lane]);
-        let vector = |first: usize| [rows.0[first][lane], rows.0[first + 1][lane], rows.0[first + 2][lane]];
-        let (normal, direction1, mean_normal) = (vector(9), vector(12), vector(15));
+        let [k1, k2, mean, gaussian, area, integrated_mean, integrated_gaussian, residual, condition, ..] = &rows.0;
+        let vector = |first: usize, lane: usize| [0, 1, 2].map(|axis| rows.0[first + axis][lane]);
         macro_rules! write {
-            ($($output:ident, $value:expr;)*) => {$(
+            ($($output:ident, |$lane:ident, $scale:ident| $value:expr;)*) => {$(
                 if let Some(output) = &self.$output {
-                    output.write(vertex, $value);
+                    for ($lane, &vertex) in block.vertices.iter().enumerate() {
+                        let $scale = block.scales[$lane];
+                        if block.lanes & 1 << $lane != 0 {
+                            output.write(vertex as usize, $value);
+                        }
+                    }
                 }
             )*};
         }
         write! {
-            k1, [k1 * scale];
-            k2, [k2 * scale];
-            direction1, direction1;
-            direction2, DVec3::from(normal).cross(direction1.into()).to_array();
-            mean, [mean * scale];
-            gaussian, [gaussian * scale * scale];
-            mean_normal, mean_normal.map(|x| x * scale);
-            area, [area / scale / scale];
-            integrated_mean, [integrated_mean / scale];
-            integrated_gaussian, [integrated_gaussian];
-            shape_index, [shape_index(k1, k2)];
-            curvedness, [((k1 * k1 + k2 * k2) * 0.5).sqrt() * scale];
-            residual, [if block.residual_power > 0 { residual / scale } else { residual * scale }];
-            condition, [condition];
-            normal, normal;
-            status, block.flags[vertex] | block.more | fallback;
+            k1, |lane, scale| [k1[lane] * scale];
+            k2, |lane, scale| [k2[lane] * scale];
+            direction1, |lane, _scale| vector(12, lane);
+            direction2, |lane, _scale| DVec3::from(vector(9, lane)).cross(vector(12, lane).into()).to_array();
+            mean, |lane, scale| [mean[lane] * scale];
+            gaussian, |lane, scale| [gaussian[lane] * scale * scale];
+            mean_normal, |lane, scale| vector(15, lane).map(|x| x * scale);
+            area, |lane, scale| [area[lane] / scale / scale];
+            integrated_mean, |lane, scale| [integrated_mean[lane] / scale];
+            integrated_gaussian, |lane, _scale| [integrated_gaussian[lane]];
+            shape_index, |lane, _scale| [shape_index(k1[lane], k2[lane])];
+            curvedness, |lane, scale| [((k1[lane] * k1[lane] + k2[lane] * k2[lane]) * 0.5).sqrt() * scale];
+            residual, |lane, scale| [
+                if block.residual_power > 0 { residual[lane] / scale } else { residual[lane] * scale }
+            ];
+            condition, |lane, _scale| [condition[lane]];
+            normal, |lane, _scale| vector(9, lane);
+        }
+        if let Some(output) = &self.status {
+            for (lane, &vertex) in block.vertices.iter().enumerate() {
+                if block.lanes & 1 << lane != 0 {
+                    let fallback = if block.fallbacks & 1 << lane != 0 { status::FALLBACK } else { 0 };
+                    output.write(vertex as usize, block.flags[vertex as usize] | block.more | fallback);
+                }
+            }
         }
     }
 
