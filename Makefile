@@ -34,10 +34,14 @@ FORCE:
 
 demo: $(LIBRARY)
 	@mkdir -p target/demo
-	$(CC) -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude examples_c/normals.c -o target/demo/normals \
-	  -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
-	@echo; echo "The C example, on a sphere of its own:"
+	for example in normals curvature; do \
+	  $(CC) -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude examples_c/$$example.c -o target/demo/$$example \
+	    -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release || exit 1; \
+	done
+	@echo; echo "The C examples, on a torus and a circle of their own:"
 	target/demo/normals
+	@echo
+	target/demo/curvature
 	@echo; echo "The command line, on $(if $(MESH),$(MESH),a generated mesh):"
 	$(if $(MESH),,target/release/umbilic generate bumpy -o target/demo/bumpy.ply --resolution 120)
 	target/release/umbilic info $(if $(MESH),"$(MESH)",target/demo/bumpy.ply)
@@ -87,6 +91,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
 	cmake --build $(CMAKE_BUILD)
 	$(CMAKE_BUILD)/normals
+	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 
