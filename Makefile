@@ -94,6 +94,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
+	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
@@ -109,7 +110,7 @@ $(MESHES): | packages
 
 # ---- Debian packages ----
 
-PACKAGES := gcc g++ binutils cmake libopenmesh-dev libcgal-dev python3-venv
+PACKAGES := gcc g++ binutils cmake libopenmesh-dev libcgal-dev libeigen3-dev python3-venv
 
 packages:
 	@.ci/packages $(PACKAGES)

@@ -1,0 +1,435 @@
+/*
+ * Curvatures of CGAL surface meshes by umbilic's jets, in CGAL's own memory, compared with CGAL's own jets.
+ *
+ * Build and run, in this directory, after `cargo build --release` in the one above:
+ *
+ *   ln -sf libumbilic.so ../target/release/libumbilic.so.0
+ *   c++ -std=c++17 -O2 -Wall -Wextra -DCGAL_EIGEN3_ENABLED -I../include -isystem /usr/include/eigen3 \
+ *     cgal_curvature.cpp -o cgal_curvature \
+ *     -L../target/release -lumbilic -lgmp -lmpfr -Wl,-rpath,../target/release
+ *   ./cgal_curvature FILE...
+ *
+ * CGAL::Monge_via_jet_fitting takes points. Here it is handed each vertex and its two rings (degrees 2 and 3) or three
+ * rings (degree 4) of vertices that share a face, as umbilic's topology has them. In CGAL a surface that bends towards
+ * its normal is curved positively, in umbilic one that bends away from it, as a sphere does from its outward normals:
+ * umbilic's k1 is CGAL's k2 with the other sign, and so are the directions exchanged.
+ *
+ * Differences of k1 and k2, and that of the directions times k1 - k2, are taken relative to the curvedness; normals are
+ * compared as they are. They have to agree within 1e-10 where CGAL's condition number is below 1e4, elsewhere within
+ * 1e-8, or what rounding may do at that condition if that is more. A vertex that differs by more needs a reason, or the
+ * program fails:
+ *
+ *   isolated   no face uses the vertex, and umbilic says so in its status
+ *   flat       the curvatures are those of a plane to rounding, on both sides
+ *   ambiguous  the points vary as little in one direction as in another, and rounding says which plane they are fitted
+ *              over
+ *   cut        the neighbourhood has more than 255 vertices, or one with more than 64 ring entries: umbilic takes fewer
+ *   widened    umbilic widened the neighbourhood and says so; CGAL agrees on one of the next four rings
+ *   fallback   umbilic took something simpler and says so, because there are no more points than coefficients (few),
+ *              because they hardly determine a polynomial, by CGAL's condition number (dependent), or because CGAL's
+ *              normal is more than 75 degrees from that of the faces (turned)
+ */
+
+// CGAL's default are closed formulas of eigenvectors, which lose half the digits.
+#define DO_NOT_USE_EIGEN_COMPUTEDIRECT_FOR_DIAGONALIZATION
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Monge_via_jet_fitting.h>
+#include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+
+#include <umbilic.h>
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Vector = Kernel::Vector_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Vertex = Mesh::Vertex_index;
+using Fitting = CGAL::Monge_via_jet_fitting<Kernel>;
+
+static_assert(sizeof(Point) == 3 * sizeof(double) && std::is_trivially_copyable<Point>::value &&
+                  std::is_standard_layout<Point>::value,
+              "points are three doubles, packed; those of a lazy kernel are not");
+static_assert(sizeof(Vector) == 3 * sizeof(double) && std::is_trivially_copyable<Vector>::value &&
+                  std::is_standard_layout<Vector>::value,
+              "and so are vectors");
+
+constexpr double WELL_CONDITIONED = 1e4;
+// umbilic calls columns dependent below 2^-16 of their length, which is at least as much in CGAL's condition number.
+constexpr double DEPENDENT = 65536.0;
+// What a term of a few operations may lose, relative to its operands.
+constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
+
+void check(umb_status status, const umb_error &error) {
+  if (status != UMB_OK) {
+    throw std::runtime_error(error.message);
+  }
+}
+
+struct DestroyTopology {
+  void operator()(umb_topology *topology) const { umb_topology_destroy(topology); }
+};
+using Topology = std::unique_ptr<umb_topology, DestroyTopology>;
+
+// CGAL keeps its faces as a half-edge structure, so they are the one thing that has to be copied out, once. The mesh
+// must have no removed elements (`collect_garbage()`): these would still have their places in its arrays.
+Topology build_topology(const Mesh &mesh) {
+  std::vector<uint32_t> indices, offsets{0};
+  for (const auto face : mesh.faces()) {
+    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) {
+      indices.push_back(vertex.idx());
+    }
+    offsets.push_back(static_cast<uint32_t>(indices.size()));
+  }
+  umb_faces faces{};
+  faces.indices = indices.data();
+  faces.index_count = indices.size();
+  faces.index = UMB_INDEX_U32;
+  if (!CGAL::is_triangle_mesh(mesh)) {
+    faces.offsets = offsets.data();
+    faces.face_count = mesh.number_of_faces();
+  }
+
+  umb_topology *topology = nullptr;
+  umb_error error = UMB_ERROR_INIT;
+  check(umb_topology_create(&faces, mesh.number_of_vertices(), nullptr, &topology, &error), error);
+  return Topology(topology);
+}
+
+// Property maps of the mesh, each of which is one array; umbilic writes into them.
+struct Curvatures {
+  Mesh::Property_map<Vertex, double> k1, k2;
+  Mesh::Property_map<Vertex, Vector> direction1, direction2, normal;
+  Mesh::Property_map<Vertex, uint8_t> status;
+  Mesh::Property_map<Vertex, Vector> face_normal;  // by area: tells the two sides of the surface apart
+
+  explicit Curvatures(Mesh &mesh) {
+    k1 = mesh.add_property_map<Vertex, double>("v:k1").first;
+    k2 = mesh.add_property_map<Vertex, double>("v:k2").first;
+    direction1 = mesh.add_property_map<Vertex, Vector>("v:direction1").first;
+    direction2 = mesh.add_property_map<Vertex, Vector>("v:direction2").first;
+    normal = mesh.add_property_map<Vertex, Vector>("v:normal").first;
+    status = mesh.add_property_map<Vertex, uint8_t>("v:status").first;
+    face_normal = mesh.add_property_map<Vertex, Vector>("v:face_normal").first;
+  }
+};
+
+template <class Value>
+umb_output output_to(Mesh::Property_map<Vertex, Value> &map) {
+  umb_output output{};
+  output.data = &map[Vertex(0)];
+  output.stride = sizeof(Value);
+  output.scalar = UMB_SCALAR_F64;
+  return output;
+}
+
+struct Jets {
+  uint32_t degree, rings;
+  std::size_t coefficients() const { return (degree + 1) * (degree + 2) / 2; }
+};
+
+// From the mesh's points, where they are, into its property maps.
+void umbilic_curvatures(const Mesh &mesh, const umb_topology &topology, const Jets &jets, Curvatures &curvatures) {
+  umb_points points{};
+  points.data = mesh.points().data();
+  points.count = mesh.number_of_vertices();
+  points.stride = sizeof(Point);
+  points.scalar = UMB_SCALAR_F64;
+  umb_error error = UMB_ERROR_INIT;
+
+  umb_normal_options normal_options = UMB_NORMAL_OPTIONS_INIT;
+  normal_options.weight = UMB_WEIGHT_AREA;
+  umb_normal_outputs normal_outputs = UMB_NORMAL_OUTPUTS_INIT;
+  normal_outputs.normal = output_to(curvatures.face_normal);
+  check(umb_vertex_normals(&topology, &points, &normal_options, &normal_outputs, &error), error);
+
+  umb_curvature_options options = UMB_CURVATURE_OPTIONS_INIT;
+  options.method = UMB_CURVATURE_JET;
+  options.degree = jets.degree;
+  options.rings = jets.rings;
+  options.normals = points;
+  options.normals.data = &curvatures.face_normal[Vertex(0)];
+  umb_curvature_outputs outputs = UMB_CURVATURE_OUTPUTS_INIT;
+  outputs.k1 = output_to(curvatures.k1);
+  outputs.k2 = output_to(curvatures.k2);
+  outputs.direction1 = output_to(curvatures.direction1);
+  outputs.direction2 = output_to(curvatures.direction2);
+  outputs.normal = output_to(curvatures.normal);
+  outputs.status.data = &curvatures.status[Vertex(0)];
+  check(umb_curvatures(&topology, &points, &options, &outputs, &error), error);
+}
+
+// The vertices around a vertex, ring after ring: those that share a face with one of the ring before.
+class Neighbourhood {
+ public:
+  Neighbourhood(const Mesh &mesh, const umb_topology &topology)
+      : mesh_(mesh),
+        triangles_(CGAL::is_triangle_mesh(mesh)),
+        offsets_(umb_topology_ring_offsets(&topology)),
+        neighbours_(umb_topology_ring_neighbours(&topology)),
+        seen_(mesh.number_of_vertices(), 0) {}
+
+  void start(Vertex vertex) {
+    gather_++;
+    members_.clear();
+    expanded_ = 0;
+    thinned_ = false;
+    add(vertex.idx());
+  }
+
+  void widen() {
+    for (const std::size_t last = members_.size(); expanded_ < last; expanded_++) {
+      const uint32_t vertex = members_[expanded_];
+      for (uint32_t entry = offsets_[vertex]; entry < offsets_[vertex + 1]; entry++) {
+        add(neighbours_[entry]);
+      }
+      thinned_ = thinned_ || offsets_[vertex + 1] - offsets_[vertex] > 64;
+      if (triangles_ || mesh_.is_isolated(Vertex(vertex))) {
+        continue;  // the corners of a triangle are neighbours
+      }
+      for (const auto face : mesh_.faces_around_target(mesh_.halfedge(Vertex(vertex)))) {
+        if (face != Mesh::null_face()) {
+          for (const auto corner : mesh_.vertices_around_face(mesh_.halfedge(face))) {
+            add(corner.idx());
+          }
+        }
+      }
+    }
+  }
+
+  std::size_t size() const { return members_.size(); }  // with the vertex itself
+  bool cut() const { return thinned_ || members_.size() > 256; }
+
+  // Relative to the vertex, which is the first: CGAL takes sums of squares of coordinates as they come.
+  std::vector<Point> points() const {
+    std::vector<Point> points;
+    for (const uint32_t member : members_) {
+      points.push_back(CGAL::ORIGIN + (mesh_.point(Vertex(member)) - mesh_.point(Vertex(members_[0]))));
+    }
+    return points;
+  }
+
+ private:
+  void add(uint32_t vertex) {
+    if (seen_[vertex] != gather_) {
+      seen_[vertex] = gather_;
+      members_.push_back(vertex);
+    }
+  }
+
+  const Mesh &mesh_;
+  const bool triangles_;
+  const uint32_t *offsets_, *neighbours_;
+  std::vector<uint32_t> seen_, members_;
+  uint32_t gather_ = 0;
+  std::size_t expanded_ = 0;
+  bool thinned_ = false;
+};
+
+double length(const Vector &vector) { return std::sqrt(vector.squared_length()); }
+
+// What CGAL says of a neighbourhood, in umbilic's signs.
+struct Fit {
+  double k1, k2, curvedness;
+  Vector direction1, normal;
+  double condition;
+  double size;   // of the neighbourhood
+  double gap;    // between the two smallest variances, relative to the largest
+  bool turned;   // the normal is more than 75 degrees from that of the faces
+
+  Fit(const std::vector<Point> &points, const Jets &jets, const Vector &face_normal) {
+    Fitting fitting;
+    auto form = fitting(points.begin(), points.end(), jets.degree, 2);
+    const auto least = fitting.pca_basis(2).second;
+    const Vector height(least.x(), least.y(), least.z());
+    const double agreement = form.normal_direction() * face_normal;
+    const double side = (height * face_normal) * (height * form.normal_direction());
+    turned = agreement * side < 0.0 || std::abs(agreement) < 0.25;
+    form.comply_wrt_given_normal(face_normal);
+    k1 = -form.principal_curvatures(1);
+    k2 = -form.principal_curvatures(0);
+    curvedness = std::sqrt((k1 * k1 + k2 * k2) / 2.0);
+    direction1 = form.minimal_principal_direction();
+    normal = form.normal_direction();
+    condition = fitting.condition_number();
+    gap = (fitting.pca_basis(1).first - fitting.pca_basis(2).first) / fitting.pca_basis(0).first;
+    size = 0.0;
+    for (const Point &point : points) {
+      size = std::max(size, length(point - CGAL::ORIGIN));
+    }
+  }
+
+  bool well_conditioned() const { return condition < WELL_CONDITIONED; }
+  double tolerance() const { return well_conditioned() ? 1e-10 : std::max(1e-8, 4.0 * ROUNDING * condition); }
+};
+
+struct Difference {
+  double curvature;  // 1/length
+  double normal;
+
+  Difference(const Curvatures &ours, Vertex vertex, const Fit &theirs) {
+    // The error of a direction is that of the shape operator by the difference of its eigenvalues.
+    const double turn = length(CGAL::cross_product(ours.direction1[vertex], theirs.direction1));
+    curvature = std::max({std::abs(ours.k1[vertex] - theirs.k1), std::abs(ours.k2[vertex] - theirs.k2),
+                          (theirs.k1 - theirs.k2) * turn});
+    normal = length(ours.normal[vertex] - theirs.normal);
+  }
+
+  double relative(const Fit &theirs) const {
+    return std::max(normal, curvature == 0.0 ? 0.0 : curvature / theirs.curvedness);
+  }
+
+  bool is_flat(const Fit &theirs) const {
+    const double rounding = ROUNDING * theirs.condition / theirs.size;
+    return normal <= theirs.tolerance() && std::max(curvature, theirs.curvedness) <= rounding;
+  }
+};
+
+struct Line {
+  double largest = 0.0, largest_loose = 0.0;  // differences within the tolerance: well conditioned, and not
+  int isolated = 0, flat = 0, ambiguous = 0, cut = 0, widened = 0, few = 0, dependent = 0, turned = 0;
+  int unexplained = 0;
+};
+
+// Whether CGAL agrees after up to four more rings, as umbilic widens a neighbourhood.
+bool agrees_wider(const Curvatures &ours, Vertex vertex, const Jets &jets, Neighbourhood &neighbourhood) {
+  for (int more = 0; more < 4; more++) {
+    neighbourhood.widen();
+    if (neighbourhood.size() > jets.coefficients()) {
+      const Fit theirs(neighbourhood.points(), jets, ours.face_normal[vertex]);
+      const Difference difference(ours, vertex, theirs);
+      if (difference.is_flat(theirs) || difference.relative(theirs) <= theirs.tolerance()) {
+        return true;
+      }
+    }
+  }
+  return neighbourhood.cut();
+}
+
+Line compare(const Mesh &mesh, const umb_topology &topology, const Jets &jets, const Curvatures &ours) {
+  Neighbourhood neighbourhood(mesh, topology);
+  Line line;
+  for (const auto vertex : mesh.vertices()) {
+    const uint8_t status = ours.status[vertex];
+    if (mesh.is_isolated(vertex) && status & UMB_VERTEX_ISOLATED) {
+      line.isolated++;
+      continue;
+    }
+    neighbourhood.start(vertex);
+    for (uint32_t ring = 0; ring < jets.rings; ring++) {
+      neighbourhood.widen();
+    }
+    const bool simpler = status & (UMB_VERTEX_FALLBACK | UMB_VERTEX_DEGENERATE);
+    if (neighbourhood.size() <= jets.coefficients()) {
+      if (simpler) {
+        line.few++;
+      } else if (status & UMB_VERTEX_WIDENED && agrees_wider(ours, vertex, jets, neighbourhood)) {
+        line.widened++;
+      } else {
+        line.unexplained++;
+      }
+      continue;
+    }
+    const Fit theirs(neighbourhood.points(), jets, ours.face_normal[vertex]);
+    const Difference difference(ours, vertex, theirs);
+    const double relative = difference.relative(theirs), tolerance = theirs.tolerance();
+    if (relative <= tolerance && !(status & UMB_VERTEX_WIDENED) && !simpler) {
+      double &largest = theirs.well_conditioned() ? line.largest : line.largest_loose;
+      largest = std::max(largest, relative);
+    } else if (neighbourhood.cut()) {
+      line.cut++;
+    } else if (simpler) {
+      if (theirs.turned) {
+        line.turned++;
+      } else if (theirs.condition >= DEPENDENT) {
+        line.dependent++;
+      } else {
+        line.unexplained++;
+      }
+    } else if (status & UMB_VERTEX_WIDENED) {
+      if (agrees_wider(ours, vertex, jets, neighbourhood)) {
+        line.widened++;
+      } else {
+        line.unexplained++;
+      }
+    } else if (difference.is_flat(theirs)) {
+      line.flat++;
+    } else if (ROUNDING > tolerance * theirs.gap) {
+      line.ambiguous++;
+    } else {
+      line.unexplained++;
+    }
+  }
+  return line;
+}
+
+// Prints the lines of one mesh, and tells whether all is explained.
+bool run(const std::string &path) {
+  if (!std::ifstream(path)) {
+    throw std::runtime_error("cannot be opened");
+  }
+  Mesh mesh;
+  // The second way merges and doubles vertices and turns faces around until a half-edge structure can hold them.
+  const bool read = CGAL::IO::read_polygon_mesh(path, mesh) || PMP::IO::read_polygon_mesh(path, mesh);
+  if (!read || mesh.number_of_faces() == 0) {
+    std::fprintf(stderr, "%s: CGAL cannot read it, left out\n", path.c_str());
+    return true;
+  }
+  mesh.collect_garbage();
+
+  const Topology topology = build_topology(mesh);
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  Curvatures curvatures(mesh);
+  bool good = true;
+  for (const Jets jets : {Jets{2, 2}, Jets{3, 2}, Jets{4, 3}}) {
+    umbilic_curvatures(mesh, *topology, jets, curvatures);
+    const Line line = compare(mesh, *topology, jets, curvatures);
+    std::printf("%-24s %7zu %6u %5u %9.1e %9.1e %8d %6d %9d %5d %7d %5d %9d %6d %11d\n", name.c_str(),
+                static_cast<std::size_t>(mesh.number_of_vertices()), jets.degree, jets.rings, line.largest,
+                line.largest_loose, line.isolated, line.flat, line.ambiguous, line.cut, line.widened, line.few,
+                line.dependent, line.turned, line.unexplained);
+    good = good && line.unexplained == 0;
+  }
+  return good;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
+    return 2;
+  }
+  std::printf("%-24s %7s %6s %5s %9s %9s %8s %6s %9s %5s %7s %5s %9s %6s %11s\n", "mesh", "#V", "degree", "rings",
+              "agreeing", "cond>1e4", "isolated", "flat", "ambiguous", "cut", "widened", "few", "dependent", "turned",
+              "unexplained");
+  bool good = true;
+  for (int index = 1; index < argc; index++) {
+    try {
+      good = run(argv[index]) && good;
+    } catch (const std::exception &exception) {
+      std::fprintf(stderr, "%s: %s\n", argv[index], exception.what());
+      good = false;
+    }
+  }
+  std::printf("%s\n", good ? "All differences are explained." : "FAILED");
+  return good ? 0 : 1;
+}
