@@ -93,6 +93,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/normals
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
+	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
 
