@@ -14,12 +14,12 @@ CMAKE_BUILD := target/examples
 VENV := target/venv
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy header packages clean FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy pictures header packages clean FORCE
 
 help:
-	@echo "make demo [MESH=file]     normals of a mesh: a table, a PLY and a picture in target/demo"
+	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
-	@echo "make bench [BENCH=...]    every weight and the topology build against a plain C scatter loop"
+	@echo "make bench [BENCH=...]    every weight and method against a plain C scatter loop, CGAL and libigl"
 	@echo "make accuracy             orders of convergence on smooth surfaces: docs/accuracy.md anew"
 	@echo "make pictures             the pictures of the README"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
@@ -50,7 +50,10 @@ demo: $(LIBRARY)
 	@echo
 	target/release/umbilic normals $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/normals.ply
 	target/release/umbilic render $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/normals.png
-	@echo; echo "Written: target/demo/normals.ply and target/demo/normals.png"
+	@echo
+	target/release/umbilic curvature $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/curvature.ply
+	target/release/umbilic render $(if $(MESH),"$(MESH)",target/demo/bumpy.ply) -o target/demo/curvature.png --color mean
+	@echo; echo "Written: normals and curvature as PLY and PNG in target/demo"
 
 # ---- tests ----
 
@@ -85,7 +88,10 @@ test-c: $(LIBRARY) | packages
 	$(CC) -std=c11 $(STRICT) -Iinclude -c tests/c/layout.c -o target/c/layout.o
 	sed -n '/^```c$$/,/^```$$/p' README.md | grep -v '^```' > target/c/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinclude -c target/c/readme.c -o target/c/readme.o
-	$(CC) -std=c11 -O3 -Wall -Wextra -Wpedantic -Werror -Iinclude -c benches/normals.c -o target/c/bench.o
+	$(CC) $(BENCH_FLAGS) -c benches/normals.c -o target/c/bench-normals.o
+	$(CC) $(BENCH_FLAGS) -DWITH_CGAL -c benches/curvature.c -o target/c/bench-curvature.o
+	$(CXX) $(CGAL_FLAGS) -c benches/cgal_jets.cpp -o target/c/bench-cgal.o
+	$(PYTHON) -B -c 'compile(open("benches/curvature.py").read(), "benches/curvature.py", "exec")'
 
 # The C and C++ examples, OpenMesh and CGAL among them, on real meshes.
 test-examples: $(LIBRARY) $(MESHES) | packages
@@ -95,6 +101,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/normals
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
+	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
 
@@ -120,11 +127,29 @@ packages:
 
 # ---- benchmark ----
 
+BENCH_FLAGS := -std=c11 -O3 -Wall -Wextra -Wpedantic -Werror -Iinclude
+# gcc 12 calls its own AVX-512 intrinsics uninitialised.
+CGAL_FLAGS := -std=c++17 -O3 -DNDEBUG -DCGAL_EIGEN3_ENABLED -Wall -Wextra -Wpedantic -Werror -Wno-maybe-uninitialized \
+  -isystem /usr/include/eigen3
+BENCH_LINK := -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
+
+# CGAL and libigl are compared with if they are installed; nothing is installed for them.
 bench: $(LIBRARY)
 	@mkdir -p target/bench
-	$(CC) -std=c11 -O3 -march=native -Wall -Wextra -Wpedantic -Werror -Iinclude benches/normals.c \
-	  -o target/bench/normals -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
+	$(CC) $(BENCH_FLAGS) -march=native benches/normals.c -o target/bench/normals $(BENCH_LINK)
 	target/bench/normals $(BENCH)
+	@if [ -e /usr/include/CGAL/Monge_via_jet_fitting.h ] && [ -e /usr/include/eigen3/Eigen/SVD ]; then \
+	  set -e -x; \
+	  $(CC) $(BENCH_FLAGS) -march=native -DWITH_CGAL -c benches/curvature.c -o target/bench/curvature.o; \
+	  $(CXX) $(CGAL_FLAGS) -march=native -c benches/cgal_jets.cpp -o target/bench/cgal_jets.o; \
+	  $(CXX) target/bench/curvature.o target/bench/cgal_jets.o -o target/bench/curvature $(BENCH_LINK) -lgmp -lmpfr; \
+	else \
+	  set -e -x; \
+	  $(CC) $(BENCH_FLAGS) -march=native benches/curvature.c -o target/bench/curvature $(BENCH_LINK); \
+	fi
+	target/bench/curvature $(BENCH)
+	$$(if [ -x $(VENV)/bin/python ]; then echo $(VENV)/bin/python; else echo $(PYTHON); fi) -B benches/curvature.py \
+	  $(CURDIR)/$(LIBRARY) $(BENCH)
 
 accuracy: $(LIBRARY) $(VENV)/done
 	$(VENV)/bin/python -B benches/accuracy/convergence.py $(LIBRARY)

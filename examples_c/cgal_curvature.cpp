@@ -278,7 +278,9 @@ struct Fit {
   }
 
   bool well_conditioned() const { return condition < WELL_CONDITIONED; }
-  double tolerance() const { return well_conditioned() ? 1e-10 : std::max(1e-8, 4.0 * ROUNDING * condition); }
+  // What rounding may do to heights, relative to the size; beyond a condition of 1e9 nothing is left to compare.
+  double rounding() const { return 4.0 * ROUNDING * std::min(condition, 1e9); }
+  double tolerance() const { return well_conditioned() ? 1e-10 : std::max(1e-8, rounding()); }
 };
 
 struct Difference {
@@ -298,8 +300,8 @@ struct Difference {
   }
 
   bool is_flat(const Fit &theirs) const {
-    const double rounding = ROUNDING * theirs.condition / theirs.size;
-    return normal <= theirs.tolerance() && std::max(curvature, theirs.curvedness) <= rounding;
+    return normal <= theirs.tolerance() &&
+           std::max(curvature, theirs.curvedness) * theirs.size <= theirs.rounding();
   }
 };
 
