@@ -31,7 +31,8 @@ pub type umb_curvature_method = u32;
 /// its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
 /// 3 at degree 4). Of order degree - 1 on meshes of any kind: the default. Where points are too few or in special position
 /// the neighbourhood is widened (`UMB_VERTEX_WIDENED`), then the degree lowered, then curvatures are 0
-/// (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `weight` and `normals` only tell its sides apart.
+/// (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `normals`, if given, tell its sides apart, else area-weighted
+/// ones do; `weight` is not looked at.
 pub const UMB_CURVATURE_JET: umb_curvature_method = 0;
 /// A quadratic height field in the frame of the vertex normal, tangent to its plane (Hamann 1993). `rings` at most 8 (0: 1);
 /// widened as jets are. As good as the normals.
@@ -86,9 +87,9 @@ pub struct umb_curvature_options {
     /// connected to the centre inside the ball counts with its share of the surface, by the part of it inside. The cost
     /// grows with the number of vertices in each ball.
     pub radius: f64,
-    /// The degree of jets; 0 for the default.
+    /// The degree of jets, 2 to 4; 0 for 3. Other methods take 0.
     pub degree: u32,
-    /// How many rings count; 0 for the method's default. Methods of one ring take 0 and 1.
+    /// How many rings count, at most 8; 0 for the method's default. Methods of one ring take 0 and 1.
     pub rings: u32,
     /// `UMB_WEIGHT_JET` only: see `degree` of `umb_normal_options`.
     pub normal_degree: u32,
@@ -126,7 +127,8 @@ pub struct umb_curvature_outputs {
     pub mean_normal: umb_output,
     /// The area that the vertex stands for, `#V`, length^2.
     pub area: umb_output,
-    /// Mean curvature integrated over that area, `#V`, length.
+    /// Mean curvature integrated over that area, `#V`, length. The normal cycle's is the sum over edges alone; its H is that
+    /// of the tensor in the tangent plane, and differs from this by the area where the vertex normal leans.
     pub integrated_mean: umb_output,
     /// Gaussian curvature integrated over that area, `#V`, without unit.
     pub integrated_gaussian: umb_output,
@@ -138,7 +140,7 @@ pub struct umb_curvature_outputs {
     /// The root mean square of what a fit left over, `#V`: length where heights were fitted, 1/length where curvatures
     /// were; for `GOLDFEATHER`, heights and slopes together in units of about the neighbourhood's size.
     pub residual: umb_output,
-    /// The condition number of a fit (Frobenius norm, columns of length 1), `#V`.
+    /// The condition number of a fit (Frobenius norm, columns of length 1, so not CGAL's), `#V`.
     pub condition: umb_output,
     /// The unit normals that all this belongs to, `#V x 3`.
     pub normal: umb_output,

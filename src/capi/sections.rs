@@ -133,7 +133,8 @@ pub unsafe extern "C" fn umb_edge_sections(
 ///
 /// `curvature` and `status` have an element for each vertex; with a shared set of `#D` directions, `#V x #D`: those of vertex v
 /// from v #D on. At a boundary, where the plane meets the ring on one side only, the mirror image of that point stands in
-/// for the other (`UMB_SECTION_STATUS_ONE_SIDED`).
+/// for the other (`UMB_SECTION_STATUS_ONE_SIDED`). The two points lie on chords between neighbours, not on the surface, so even
+/// with exact normals the error need not shrink with the edges, unless the plane passes close to neighbours.
 ///
 /// Precision, bits, threads: as `umb_curvatures`. Cost: linear in the number of corners times the number of directions.
 ///
@@ -215,7 +216,7 @@ pub(super) unsafe fn vertex_normals_asked<'a>(
     normals: &umb_points,
     weight: Weight,
 ) -> Result<VertexNormals<'a>, Error> {
-    if normals.data.is_null() && normals.count == 0 {
+    if normals.data.is_null() {
         return Ok(VertexNormals::Computed(weight));
     }
     // SAFETY: handed on.

@@ -144,7 +144,7 @@ mod tests {
                     d: (k1 * s * s + k2 * c * c) * size,
                 };
                 let found = operator.principal();
-                assert!((found.k1 / size - k1).abs() < 4e-15 && (found.k2 / size - k2).abs() < 4e-15);
+                assert!((found.k1 / size - k1).abs() < 1e-14 && (found.k2 / size - k2).abs() < 1e-14);
                 let along = (found.direction.0 * c + found.direction.1 * s).abs();
                 assert!((along - 1.0).abs() < 1e-14, "{i} {size} {along}");
             }

@@ -137,7 +137,7 @@ fn by_method(
     let condition = outputs.condition.is_some();
     let rings = options.rings.max(1);
     match options.method {
-        Method::Jet => patch!(JetFit::new(jet_options(options)?, condition)?),
+        Method::Jet => patch!(JetFit::new(jet_options(options)?)?),
         Method::Quadric => patch!(Quadric { rings, condition }),
         Method::Goldfeather => patch!(Goldfeather { rings, condition }),
         Method::LeastSquares => ring!(LeastSquares { section }),
@@ -156,7 +156,7 @@ fn by_method(
 /// The options of a jet that has curvatures.
 fn jet_options(options: &CurvatureOptions<'_>) -> Result<JetOptions, Error> {
     if options.degree == 1 {
-        return Err(Error::NotApplicable { what: "options.degree = 1" });
+        return Err(Error::OptionOutOfRange { what: "options.degree" });
     }
     Ok(JetOptions { degree: options.degree, rings: options.rings as u8 })
 }

@@ -32,6 +32,9 @@ use crate::topology::status;
 /// The cosine of the largest angle between a jet's normal and the vertex's.
 const AGREES: f64 = 0.25;
 
+/// A jet of a condition beyond this says more about rounding, and about how the points happen to lie, than about the surface.
+const ILL_CONDITIONED: f64 = 1e6;
+
 /// The surface at a vertex.
 #[derive(Clone, Copy)]
 #[allow(dead_code, reason = "the curvatures are to come")]
@@ -47,7 +50,7 @@ pub(crate) struct Jet<V: Vector> {
     pub shape: [V; 3],
     /// The root of the mean of the squared height differences, in the patch's units.
     pub residual: V,
-    /// The condition of the least-squares problem, if it was asked for; else 0.
+    /// The condition of the least-squares problem.
     pub condition: V,
     /// Lanes that can be believed.
     pub trusted: V::Mask,
@@ -125,22 +128,17 @@ impl JetFit {
         scratch: &mut [V],
     ) -> Jet<V> {
         match degree {
-            1 => fit::<V, 3>(patch, axes, self.condition, scratch),
-            2 => fit::<V, 6>(patch, axes, self.condition, scratch),
-            3 => fit::<V, 10>(patch, axes, self.condition, scratch),
-            _ => fit::<V, 15>(patch, axes, self.condition, scratch),
+            1 => fit::<V, 3>(patch, axes, scratch),
+            2 => fit::<V, 6>(patch, axes, scratch),
+            3 => fit::<V, 10>(patch, axes, scratch),
+            _ => fit::<V, 15>(patch, axes, scratch),
         }
     }
 }
 
 /// Fits the polynomial of `K` coefficients along `axes.z`.
 #[inline(always)]
-fn fit<V: Vector<Scalar = f64>, const K: usize>(
-    patch: &Patch<'_, V>,
-    axes: Axes<V>,
-    wants_condition: bool,
-    scratch: &mut [V],
-) -> Jet<V> {
+fn fit<V: Vector<Scalar = f64>, const K: usize>(patch: &Patch<'_, V>, axes: Axes<V>, scratch: &mut [V]) -> Jet<V> {
     // Rows that are too few are filled up with zeros, as in lanes that have fewer than others.
     let rows = (patch.len() + 1).max(K);
     let columns = &mut scratch[..(K + 1) * rows];
@@ -176,7 +174,7 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     let solution = solve::<V, K>(columns, rows);
     let u = &solution.unknowns;
     let residual = (solution.residual_squared / (patch.count + V::one())).sqrt();
-    let condition = if wants_condition { condition(columns, rows, &solution) } else { V::zero() };
+    let condition = condition(columns, rows, &solution);
 
     let (p, q) = (u[1], u[2]);
     let e = V::one() + p * p;
@@ -202,7 +200,8 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(
     // A vertex without a normal has nothing to tell the sides of the surface by.
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
     // As many points as coefficients would be met exactly, noise and all.
-    let determined = solution.trusted.and(V::constant((K - 1) as f64).lt(patch.count));
+    let enough = V::constant((K - 1) as f64).lt(patch.count);
+    let determined = solution.trusted.and(enough).and(condition.lt(V::constant(ILL_CONDITIONED)));
     let trusted = determined.and(agrees).and(axes.distinct);
     Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined }
 }
@@ -221,7 +220,7 @@ mod tests {
     }
 
     fn jet_fit(degree: u8) -> JetFit {
-        JetFit::new(JetOptions { degree, rings: 2 }, true).unwrap()
+        JetFit::new(JetOptions { degree, rings: 2 }).unwrap()
     }
 
     fn unit(v: Vector3<f64>) -> Vector3<f64> {

@@ -29,15 +29,12 @@ pub(crate) const MOST_DEGREE: u8 = 4;
 pub(crate) struct JetFit {
     degree: usize,
     rings: usize,
-    condition: bool,
 }
 
 impl JetFit {
-    /// `condition` asks for [`Jet::condition`].
-    ///
     /// # Errors
     /// [`Error::OptionOutOfRange`] for a degree or a number of rings beyond what [`JetOptions`] says.
-    pub(crate) fn new(options: JetOptions, condition: bool) -> Result<Self, Error> {
+    pub(crate) fn new(options: JetOptions) -> Result<Self, Error> {
         for (what, value, most) in
             [("options.degree", options.degree, MOST_DEGREE), ("options.rings", options.rings, MOST_RINGS as u8)]
         {
@@ -52,7 +49,7 @@ impl JetFit {
             (0, _) => 3,
             (rings, _) => rings as usize,
         };
-        Ok(JetFit { degree, rings, condition })
+        Ok(JetFit { degree, rings })
     }
 
     /// The rings that were asked for.

@@ -25,7 +25,7 @@ pub(super) fn jet_normals(
     mut run: Run<'_>,
     outputs: &NormalOutputs<'_>,
 ) -> Result<(), Error> {
-    let fit = JetFit::new(options, false)?;
+    let fit = JetFit::new(options)?;
     let references = run.part(0.0, REFERENCE_SHARE, |run| reference_normals(topology, points, run))?;
     let quantity = JetNormals { fit, outputs, flags: topology.flags(), references: &references };
     run.part(REFERENCE_SHARE, 1.0, |mut run| sweep_patches(topology, points, &mut run, &quantity))
