@@ -380,25 +380,26 @@ impl<'a> CurvatureOracle<'a> {
         let others = neighbourhood(&self.clean, &self.faces_of, vertex, rings);
         let edge = |&v: &usize| (self.edge(vertex, v), self.normals[v]);
         let others: Vec<(Vector, Vector)> = others[1..].iter().map(edge).collect();
-        // Heights and slopes count alike where the largest component is between 1 and 2.
-        let extent = others.iter().flat_map(|other| other.0).fold(0.0f64, |extent, x| extent.max(x.abs()));
-        let unit = 0.5f64.powi(extent.log2().floor() as i32);
+        // Slopes become lengths by the root mean square distance.
+        let squares: f64 = others.iter().map(|other| dot(other.0, other.0)).sum();
+        let distance = (squares / others.len() as f64).sqrt();
         let mut rows = vec![];
         for (point, n) in others {
-            let [x, y, z] = [ex, ey, normal].map(|axis| dot(axis, point) * unit);
+            let [x, y, z] = [ex, ey, normal].map(|axis| dot(axis, point));
             let mut height = vec![x * x / 2.0, x * y, y * y / 2.0];
             if slopes {
                 height.extend([x * x * x, x * x * y, x * y * y, y * y * y]);
                 let [nx, ny, nz] = [ex, ey, normal].map(|axis| dot(axis, n));
                 if nz > 0.05 {
-                    rows.push(vec![x, y, 0.0, 3.0 * x * x, 2.0 * x * y, y * y, 0.0, -nx / nz]);
-                    rows.push(vec![0.0, x, y, 0.0, x * x, 2.0 * x * y, 3.0 * y * y, -ny / nz]);
+                    let along_x = [x, y, 0.0, 3.0 * x * x, 2.0 * x * y, y * y, 0.0, -nx / nz];
+                    let along_y = [0.0, x, y, 0.0, x * x, 2.0 * x * y, 3.0 * y * y, -ny / nz];
+                    rows.extend([along_x, along_y].map(|row| row.map(|x| x * distance).to_vec()));
                 }
             }
             height.push(z);
             rows.push(height);
         }
         let u = least_squares(&rows)?;
-        Some(Answer::of_operator(normal, [ex, ey], [u[0], u[1], u[2]].map(|x| -x * unit)))
+        Some(Answer::of_operator(normal, [ex, ey], [u[0], u[1], u[2]].map(|x| -x)))
     }
 }
