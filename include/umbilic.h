@@ -705,7 +705,7 @@ typedef struct umb_curvature_outputs {
   struct umb_output curvedness;
   /**
    * The root mean square of what a fit left over, `#V`: length where heights were fitted, 1/length where curvatures
-   * were; for `GOLDFEATHER`, heights and slopes together in units of about the neighbourhood's size.
+   * were; for `GOLDFEATHER`, of heights, and of slopes times the root mean square distance of the neighbours.
    */
   struct umb_output residual;
   /**

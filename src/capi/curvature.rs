@@ -138,7 +138,7 @@ pub struct umb_curvature_outputs {
     /// Koenderink's curvedness sqrt((k1^2 + k2^2) / 2), `#V`, 1/length.
     pub curvedness: umb_output,
     /// The root mean square of what a fit left over, `#V`: length where heights were fitted, 1/length where curvatures
-    /// were; for `GOLDFEATHER`, heights and slopes together in units of about the neighbourhood's size.
+    /// were; for `GOLDFEATHER`, of heights, and of slopes times the root mean square distance of the neighbours.
     pub residual: umb_output,
     /// The condition number of a fit (Frobenius norm, columns of length 1, so not CGAL's), `#V`.
     pub condition: umb_output,

@@ -2,12 +2,14 @@
 //!
 //! In the frame of the vertex normal, with the vertex as origin, a neighbour at `(x, y, z)` with the normal `(n₁, n₂, n₃)`
 //! gives three equations for the cubic `z = ½ (a x² + 2 b x y + d y²) + e x³ + f x² y + g x y² + h y³`: its height, and its
-//! slopes `∂z/∂x = −n₁/n₃` and `∂z/∂y = −n₂/n₃`. The least-squares solution gives the shape operator `−(a b; b d)`.
+//! slopes `∂z/∂x = −n₁/n₃` and `∂z/∂y = −n₂/n₃`. The least-squares solution gives the shape operator `−(a b; b d)`. Slopes
+//! are multiplied by the root mean square distance of the neighbours, which makes them lengths that count about as much as
+//! heights, whatever the size of the mesh and however it is turned.
 //!
 //! Input: one ring, or more, with the normals of all vertices; in polygons all vertices that share a face. Reference:
 //! Goldfeather & Interrante 2004, "A novel cubic-order algorithm for approximating principal direction vectors", section 3.
 //! With exact normals it is of second order; with one-ring normals it is as good as those.
-//! Numerical notes: lengths are about 1, so heights and slopes count alike; Householder reflections. Boundary: no rule
+//! Numerical notes: Householder reflections. Boundary: no rule
 //! needed. Degenerate rule: a neighbour whose normal is more than 87° from the vertex's gives its height only; where the
 //! rest does not determine the cubic, the neighbourhood widens, and where that does not help, curvatures are zero and the
 //! status says fallback. Cost: that of a least-squares problem of seven unknowns.
@@ -54,13 +56,18 @@ impl PatchEstimator for Goldfeather {
         for number in columns.iter_mut() {
             *number = V::zero();
         }
+        let mut squares = V::zero();
+        for index in 0..patch.len() {
+            squares = squares + patch.point(index).squared();
+        }
+        let distance = (squares / patch.count.max(V::one())).sqrt();
         for index in 0..patch.len() {
             // A point that a lane does not have is the vertex itself, without a normal: its rows are zero.
             let (point, normal) = (patch.point(index), patch.neighbour_normal(index));
             let ((x, y), z) = (frame.tangential(point), point.dot(frame.normal));
             let ((nx, ny), nz) = (frame.tangential(normal), normal.dot(frame.normal));
             let known = V::constant(STEEP).lt(nz);
-            let weight = V::select(known, V::one(), V::zero());
+            let weight = V::select(known, distance, V::zero());
             let inverse = -(V::one() / V::select(known, nz, V::one())) * weight;
             let (xx, xy, yy) = (x * x, x * y, y * y);
             let height = [xx * half, xy, yy * half, xx * x, xx * y, x * yy, yy * y, z];

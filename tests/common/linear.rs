@@ -31,12 +31,32 @@ pub fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>
     Some(right)
 }
 
-/// The least-squares solution of `rows`, each of the left-hand sides and the right-hand side, by normal equations.
+/// The least-squares solution of `rows`, each of the left-hand sides and the right-hand side: the columns are made
+/// perpendicular one after the other (Gram and Schmidt, modified), which is as good as the problem's condition. None if a
+/// column depends on those before it to rounding.
 pub fn least_squares(rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     let n = rows.first()?.len() - 1;
-    let product = |i: usize, j: usize| rows.iter().map(|row| row[i] * row[j]).sum::<f64>();
-    let matrix = (0..n).map(|i| (0..n).map(|j| product(i, j)).collect()).collect();
-    solved(matrix, (0..n).map(|i| product(i, n)).collect())
+    let mut columns: Vec<Vec<f64>> = (0..=n).map(|column| rows.iter().map(|row| row[column]).collect()).collect();
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut upper = vec![vec![0.0; n + 1]; n];
+    for k in 0..n {
+        let whole: f64 = rows.iter().map(|row| row[k] * row[k]).sum::<f64>().sqrt();
+        upper[k][k] = product(&columns[k], &columns[k]).sqrt();
+        if upper[k][k] <= 1e-13 * whole {
+            return None;
+        }
+        let direction: Vec<f64> = columns[k].iter().map(|x| x / upper[k][k]).collect();
+        for later in k + 1..=n {
+            upper[k][later] = product(&direction, &columns[later]);
+            columns[later].iter_mut().zip(&direction).for_each(|(x, d)| *x -= upper[k][later] * d);
+        }
+    }
+    let mut unknowns = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|later| upper[k][later] * unknowns[later]).sum();
+        unknowns[k] = (upper[k][n] - known) / upper[k][k];
+    }
+    Some(unknowns)
 }
 
 /// A rotation drawn at random, as its rows.

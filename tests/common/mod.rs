@@ -1,8 +1,10 @@
 //! What the tests share: meshes, an oracle, and the C interface in a test's words.
 #![allow(dead_code)]
 
+pub mod answer;
 pub mod capi;
 pub mod curvature;
+pub mod curvature_oracle;
 pub mod linear;
 pub mod mesh;
 pub mod oracle;

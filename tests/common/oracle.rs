@@ -57,6 +57,11 @@ impl<'a> Oracle<'a> {
         Oracle { mesh, faces, corners }
     }
 
+    /// The corners of a face, without repetitions.
+    pub fn face(&self, face: usize) -> &[u32] {
+        &self.faces[face]
+    }
+
     pub fn corners(&self, vertex: usize) -> &[Corner] {
         &self.corners[vertex]
     }
@@ -92,7 +97,7 @@ impl<'a> Oracle<'a> {
     }
 
     /// Both edges, the interior angle, the unit normal of the face, and its area.
-    fn measure(&self, vertex: usize, corner: &Corner) -> (Vector, Vector, f64, Vector, f64) {
+    pub fn measure(&self, vertex: usize, corner: &Corner) -> (Vector, Vector, f64, Vector, f64) {
         let centre = self.mesh.positions[vertex];
         let (a, b) = (sub(self.point(corner.next), centre), sub(self.point(corner.prev), centre));
         let area_vector = self.area_vector(corner.face);
