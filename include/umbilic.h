@@ -1,8 +1,8 @@
 /*
- * umbilic: vertex normals of polygon meshes and curvatures of polylines, on the caller's own memory.
+ * umbilic: vertex normals and curvatures of polygon meshes, and curvatures of polylines, on the caller's own memory.
  *
- * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed from positions as
- * often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
+ * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed
+ * from positions as often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
  * are never kept or copied whole.
  *
  * Every function that can fail returns a umb_status, 0 for success, and takes an optional umb_error that names the
@@ -615,11 +615,11 @@ typedef struct umb_curvature_options {
    */
   double radius;
   /**
-   * The degree of jets; 0 for the default.
+   * The degree of jets, 2 to 4; 0 for 3. Other methods take 0.
    */
   uint32_t degree;
   /**
-   * How many rings count; 0 for the method's default. Methods of one ring take 0 and 1.
+   * How many rings count, at most 8; 0 for the method's default. Methods of one ring take 0 and 1.
    */
   uint32_t rings;
   /**
@@ -687,7 +687,8 @@ typedef struct umb_curvature_outputs {
    */
   struct umb_output area;
   /**
-   * Mean curvature integrated over that area, `#V`, length.
+   * Mean curvature integrated over that area, `#V`, length. The normal cycle's is the sum over edges alone; its H is that
+   * of the tensor in the tangent plane, and differs from this by the area where the vertex normal leans.
    */
   struct umb_output integrated_mean;
   /**
@@ -709,7 +710,7 @@ typedef struct umb_curvature_outputs {
    */
   struct umb_output residual;
   /**
-   * The condition number of a fit (Frobenius norm, columns of length 1), `#V`.
+   * The condition number of a fit (Frobenius norm, columns of length 1, so not CGAL's), `#V`.
    */
   struct umb_output condition;
   /**
@@ -1089,7 +1090,8 @@ typedef struct umb_polyline_outputs {
  * its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
  * 3 at degree 4). Of order degree - 1 on meshes of any kind: the default. Where points are too few or in special position
  * the neighbourhood is widened (`UMB_VERTEX_WIDENED`), then the degree lowered, then curvatures are 0
- * (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `weight` and `normals` only tell its sides apart.
+ * (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `normals`, if given, tell its sides apart, else area-weighted
+ * ones do; `weight` is not looked at.
  */
 #define UMB_CURVATURE_JET 0
 
@@ -1506,7 +1508,8 @@ umb_status umb_edge_sections(const struct umb_topology *topology,
  *
  * `curvature` and `status` have an element for each vertex; with a shared set of `#D` directions, `#V x #D`: those of vertex v
  * from v #D on. At a boundary, where the plane meets the ring on one side only, the mirror image of that point stands in
- * for the other (`UMB_SECTION_STATUS_ONE_SIDED`).
+ * for the other (`UMB_SECTION_STATUS_ONE_SIDED`). The two points lie on chords between neighbours, not on the surface, so even
+ * with exact normals the error need not shrink with the edges, unless the plane passes close to neighbours.
  *
  * Precision, bits, threads: as `umb_curvatures`. Cost: linear in the number of corners times the number of directions.
  *

@@ -183,8 +183,12 @@ fn the_range_can_be_chosen() {
     assert!(low == 0.0 && high > 0.0);
     let reach = |percentile| ends(&format!("bumpy.ply --color k1 --percentile {percentile}"))[1];
     assert!(reach("50") < reach("95") && reach("95") < reach("100"));
-    // All corners of a cube are alike and flat to a jet, but for rounding.
-    assert_eq!(ends("cube.ply"), [-1.0, 1.0]);
+    // A plane is flat but for rounding; all corners of a cube are alike.
+    fs::write(folder.join("plane.off"), "OFF\n4 2 0\n0 0 0.1\n1 0 0.4\n1 1 0.6\n0 1 0.3\n3 0 1 2\n3 0 2 3\n")
+        .unwrap();
+    assert_eq!(ends("plane.off"), [-1.0, 1.0]);
+    let [low, high] = ends("cube.ply");
+    assert!(low == -high && high > 0.0);
 }
 
 #[test]
@@ -243,7 +247,7 @@ fn options_that_a_method_does_not_have_are_refused() {
         ("--method taubin --degree 3", "torus.ply: --degree is nothing that the method has (taubin)"),
         ("--method meyer --ring 2", "torus.ply: --ring is nothing that the method has (meyer)"),
         ("--method jet --radius 0.1", "torus.ply: --radius is nothing that the method has (jet)"),
-        ("--degree 1", "torus.ply: --degree = 1 is nothing that the method has (jet)"),
+        ("--degree 1", "torus.ply: --degree is outside its range"),
         ("--method normal-cycle --radius 1 --rings 2", "torus.ply: --ring beside --radius is nothing"),
         ("--section c", "--section is nothing that the method has (jet)"),
         ("--normal max", "--normal is nothing that the method has (jet)"),

@@ -91,10 +91,30 @@ impl<'a> CurvatureOracle<'a> {
             vec![c * c, 2.0 * c * s, s * s, k]
         };
         let rows: Vec<Vec<f64>> = self.sections(vertex, section).iter().map(row).collect();
-        let u = least_squares(&rows)?;
+        let u = self.determined_part(&rows).or_else(|| least_squares(&rows))?;
         let left = rows.iter().map(|r| (r[3] - r[0] * u[0] - r[1] * u[1] - r[2] * u[2]).powi(2)).sum::<f64>();
         let residual = (left / rows.len() as f64).sqrt();
         Some(Answer { residual, ..Answer::of_operator(normal, [x, y], [u[0], u[1], u[2]]) })
+    }
+
+    /// What stands for the least-squares solution where the edges hardly tell a part of `κ = H + p cos 2φ + q sin 2φ` apart:
+    /// that part is left out, and the rest is a regression on the one direction, or none, that they do tell apart.
+    fn determined_part(&self, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let doubled: Vec<[f64; 3]> = rows.iter().map(|r| [r[0] - r[2], r[1], r[3]]).collect();
+        let mean = |f: &dyn Fn(&[f64; 3]) -> f64| doubled.iter().map(f).sum::<f64>() / doubled.len() as f64;
+        let centre: [f64; 3] = std::array::from_fn(|i| mean(&|r| r[i]));
+        let moment = |i: usize, j: usize| mean(&|r| (r[i] - centre[i]) * (r[j] - centre[j]));
+        let (a, b, d) = (moment(0, 0), moment(0, 1), moment(1, 1));
+        let spread = ((a - d) / 2.0).hypot(b);
+        let [small, large] = [(a + d) / 2.0 - spread, (a + d) / 2.0 + spread];
+        if rows.is_empty() || small > 0.01 {
+            return None;
+        }
+        let axis = 0.5 * (2.0 * b).atan2(a - d);
+        let slope = (axis.cos() * moment(0, 2) + axis.sin() * moment(1, 2)) / large;
+        let (p, q) = if large > 0.01 { (slope * axis.cos(), slope * axis.sin()) } else { (0.0, 0.0) };
+        let height = centre[2] - p * centre[0] - q * centre[1];
+        Some(vec![height + p, q, height - p])
     }
 
     pub fn taubin(&self, vertex: usize, section: umb_section) -> Option<Answer> {
