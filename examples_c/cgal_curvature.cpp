@@ -26,8 +26,9 @@
  *   cut        the neighbourhood has more than 255 vertices, or one with more than 64 ring entries: umbilic takes fewer
  *   widened    umbilic widened the neighbourhood and says so; CGAL agrees on one of the next four rings
  *   fallback   umbilic took something simpler and says so, because there are no more points than coefficients (few),
- *              because they hardly determine a polynomial, by CGAL's condition number (dependent), or because CGAL's
- *              normal is more than 75 degrees from that of the faces (turned)
+ *              because they hardly determine a polynomial, by CGAL's condition number (dependent), because CGAL's
+ *              normal is more than 75 degrees from that of the faces (turned), or because the points vary across their
+ *              plane nearly as much as in it (thick)
  */
 
 // CGAL's default are closed formulas of eigenvectors, which lose half the digits.
@@ -73,8 +74,14 @@ static_assert(sizeof(Vector) == 3 * sizeof(double) && std::is_trivially_copyable
               "and so are vectors");
 
 constexpr double WELL_CONDITIONED = 1e4;
-// umbilic calls columns dependent below 2^-16 of their length, which is at least as much in CGAL's condition number.
-constexpr double DEPENDENT = 65536.0;
+// umbilic calls columns dependent below 2^-16 of their length, which is at least as much in CGAL's condition number; and
+// takes no condition beyond 1e6, in the Frobenius norm and with K columns of length 1: for CGAL's number, in the spectral
+// norm and with other units, that may be less by K, and by the root of K, times.
+double dependent(std::size_t coefficients) {
+  return std::min(65536.0, 1e6 / std::pow(static_cast<double>(coefficients), 1.5));
+}
+// From this ratio of the two smallest variances on, umbilic does not believe in the plane.
+constexpr double THICK = 0.75;
 // What a term of a few operations may lose, relative to its operands.
 constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
 
@@ -254,6 +261,7 @@ struct Fit {
   double size;   // of the neighbourhood
   double gap;    // between the two smallest variances, relative to the largest
   bool turned;   // the normal is more than 75 degrees from that of the faces
+  bool thick;    // the points vary nearly as much across the plane as in it
 
   Fit(const std::vector<Point> &points, const Jets &jets, const Vector &face_normal) {
     Fitting fitting;
@@ -271,6 +279,7 @@ struct Fit {
     normal = form.normal_direction();
     condition = fitting.condition_number();
     gap = (fitting.pca_basis(1).first - fitting.pca_basis(2).first) / fitting.pca_basis(0).first;
+    thick = fitting.pca_basis(2).first >= THICK * (1.0 - 1e-9) * fitting.pca_basis(1).first;
     size = 0.0;
     for (const Point &point : points) {
       size = std::max(size, length(point - CGAL::ORIGIN));
@@ -307,7 +316,7 @@ struct Difference {
 
 struct Line {
   double largest = 0.0, largest_loose = 0.0;  // differences within the tolerance: well conditioned, and not
-  int isolated = 0, flat = 0, ambiguous = 0, cut = 0, widened = 0, few = 0, dependent = 0, turned = 0;
+  int isolated = 0, flat = 0, ambiguous = 0, cut = 0, widened = 0, few = 0, dependent = 0, turned = 0, thick = 0;
   int unexplained = 0;
 };
 
@@ -361,8 +370,10 @@ Line compare(const Mesh &mesh, const umb_topology &topology, const Jets &jets, c
     } else if (simpler) {
       if (theirs.turned) {
         line.turned++;
-      } else if (theirs.condition >= DEPENDENT) {
+      } else if (theirs.condition >= dependent(jets.coefficients())) {
         line.dependent++;
+      } else if (theirs.thick) {
+        line.thick++;
       } else {
         line.unexplained++;
       }
@@ -404,10 +415,10 @@ bool run(const std::string &path) {
   for (const Jets jets : {Jets{2, 2}, Jets{3, 2}, Jets{4, 3}}) {
     umbilic_curvatures(mesh, *topology, jets, curvatures);
     const Line line = compare(mesh, *topology, jets, curvatures);
-    std::printf("%-24s %7zu %6u %5u %9.1e %9.1e %8d %6d %9d %5d %7d %5d %9d %6d %11d\n", name.c_str(),
+    std::printf("%-24s %7zu %6u %5u %9.1e %9.1e %8d %6d %9d %5d %7d %5d %9d %6d %5d %11d\n", name.c_str(),
                 static_cast<std::size_t>(mesh.number_of_vertices()), jets.degree, jets.rings, line.largest,
                 line.largest_loose, line.isolated, line.flat, line.ambiguous, line.cut, line.widened, line.few,
-                line.dependent, line.turned, line.unexplained);
+                line.dependent, line.turned, line.thick, line.unexplained);
     good = good && line.unexplained == 0;
   }
   return good;
@@ -420,9 +431,9 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
     return 2;
   }
-  std::printf("%-24s %7s %6s %5s %9s %9s %8s %6s %9s %5s %7s %5s %9s %6s %11s\n", "mesh", "#V", "degree", "rings",
-              "agreeing", "cond>1e4", "isolated", "flat", "ambiguous", "cut", "widened", "few", "dependent", "turned",
-              "unexplained");
+  std::printf("%-24s %7s %6s %5s %9s %9s %8s %6s %9s %5s %7s %5s %9s %6s %5s %11s\n", "mesh", "#V", "degree",
+              "rings", "agreeing", "cond>1e4", "isolated", "flat", "ambiguous", "cut", "widened", "few", "dependent",
+              "turned", "thick", "unexplained");
   bool good = true;
   for (int index = 1; index < argc; index++) {
     try {
