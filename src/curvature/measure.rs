@@ -316,9 +316,11 @@ impl Ball {
         Ok(Ball { radius, seen, visit: 0, found: reserved(topology.vertex_count())? })
     }
 
-    /// How far apart two vertices are, in radii.
-    fn distance(&self, points: &Points<'_>, a: usize, b: usize) -> f64 {
-        ((points.get(a) / self.radius) - (points.get(b) / self.radius)).length()
+    /// How far apart two vertices are, whatever their distance is; infinite beyond the range.
+    fn distance(points: &Points<'_>, a: usize, b: usize) -> f64 {
+        let half = points.get(a) * 0.5 - points.get(b) * 0.5;
+        let largest = half.abs().max_element();
+        if largest > 0.0 { 2.0 * largest * (half / largest).length() } else { 0.0 }
     }
 
     /// Fills `found`, breadth first.
@@ -331,7 +333,7 @@ impl Ball {
         while let Some(&vertex) = self.found.get(next) {
             next += 1;
             // A position that is none, where only some vertices are computed, is not inside.
-            let inside = self.distance(points, centre as usize, vertex as usize) < 1.0;
+            let inside = Ball::distance(points, centre as usize, vertex as usize) < self.radius;
             if vertex != centre && !inside {
                 continue;
             }
@@ -345,10 +347,10 @@ impl Ball {
 
     /// How much of a cell lies in the ball.
     fn part(&self, points: &Points<'_>, centre: usize, vertex: usize, cell: &Cell) -> f64 {
-        let diameter = 2.0 * (cell[0].max(0.0) / std::f64::consts::PI).sqrt() / cell[9] / self.radius;
-        let inside = 1.0 - self.distance(points, centre, vertex);
-        // A cell without area is in or out.
-        if diameter > 0.0 { (0.5 + inside / diameter).clamp(0.0, 1.0) } else { (inside > 0.0) as u8 as f64 }
+        let diameter = 2.0 * (cell[0].max(0.0) / std::f64::consts::PI).sqrt() / cell[9];
+        let inside = self.radius - Ball::distance(points, centre, vertex);
+        // A cell without area is in or out; one infinitely large and far away is out.
+        if diameter > 0.0 { (0.5 + inside / diameter).max(0.0).min(1.0) } else { (inside > 0.0) as u8 as f64 }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The driver of all methods that look at neighbourhoods of several rings.
 
 use super::outputs::{Block, CurvatureOutputs, Local};
+use super::principal::{Frame, Operator};
 use crate::simd::{Mask, Vector};
 use crate::sweep::{Patch, PatchQuantity};
 use crate::topology::status;
@@ -28,7 +29,10 @@ pub(crate) trait PatchEstimator: Sync {
         let found = self.lanes(patch, scratch);
         match (found.trusted() != 0, last) {
             (true, _) => Some((found, 0)),
-            (false, true) => Some((Local::new(patch.normal), status::FALLBACK)),
+            (false, true) => {
+                let zero = Operator { a: 0.0, b: 0.0, d: 0.0 };
+                Some((Local::of_operator(&Frame::new(patch.normal), &zero), status::FALLBACK))
+            }
             (false, false) => None,
         }
     }
