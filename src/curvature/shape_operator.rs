@@ -24,8 +24,8 @@ use crate::simd::Vector;
 use crate::sweep::{Ring, RingFaces, Scratch};
 
 /// A part of `(p, q)` that the edges tell apart by less than this mean square is not determined: what they say of it is the
-/// error of the normal, magnified more than tenfold.
-const UNDETERMINED: f64 = 0.01;
+/// error of the normal, magnified more than thirtyfold.
+const UNDETERMINED: f64 = 0.001;
 
 /// Least squares over sections.
 pub(crate) struct LeastSquares {

@@ -107,12 +107,12 @@ impl<'a> CurvatureOracle<'a> {
         let (a, b, d) = (moment(0, 0), moment(0, 1), moment(1, 1));
         let spread = ((a - d) / 2.0).hypot(b);
         let [small, large] = [(a + d) / 2.0 - spread, (a + d) / 2.0 + spread];
-        if rows.is_empty() || small > 0.01 {
+        if rows.is_empty() || small > 0.001 {
             return None;
         }
         let axis = 0.5 * (2.0 * b).atan2(a - d);
         let slope = (axis.cos() * moment(0, 2) + axis.sin() * moment(1, 2)) / large;
-        let (p, q) = if large > 0.01 { (slope * axis.cos(), slope * axis.sin()) } else { (0.0, 0.0) };
+        let (p, q) = if large > 0.001 { (slope * axis.cos(), slope * axis.sin()) } else { (0.0, 0.0) };
         let height = centre[2] - p * centre[0] - q * centre[1];
         Some(vec![height + p, q, height - p])
     }
