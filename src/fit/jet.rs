@@ -37,7 +37,6 @@ const ILL_CONDITIONED: f64 = 1e6;
 
 /// The surface at a vertex.
 #[derive(Clone, Copy)]
-#[allow(dead_code, reason = "the curvatures are to come")]
 pub(crate) struct Jet<V: Vector> {
     /// Unit normal.
     pub normal: Vector3<V>,

@@ -4,7 +4,6 @@ mod axes;
 mod jet;
 mod least_squares;
 
-#[allow(unused_imports, reason = "for curvatures, which are to come")]
 pub(crate) use jet::Jet;
 pub(crate) use least_squares::{condition, solve};
 
