@@ -41,13 +41,13 @@ fn spheres_with_exact_normals() {
                 })
             };
             let check = |found: &Found, outputs: &[(Out, f64)]| {
-                for vertex in 0..normals.len() {
+                for (vertex, &normal) in normals.iter().enumerate() {
                     for &(output, tolerance) in outputs {
                         let expected = if output == Gaussian { 1.0 / radius / radius } else { 1.0 / radius };
                         let what = || format!("{output:?} of {}, method {}, {vertex}", mesh.name, found.method);
                         near(found.at(output, vertex), expected, tolerance, &what);
                     }
-                    assert!(largest_difference(found.vector(Normal, vertex), normals[vertex]) < 4e-16);
+                    assert!(largest_difference(found.vector(Normal, vertex), normal) < 4e-16);
                 }
             };
             // The edges of a jittered grid of quads hardly determine the twist of the fit.

@@ -106,8 +106,9 @@ fn sections_of_edges_stand_where_the_neighbours_stand() {
             let found = edge_sections(&handle, &mesh.positions, |options| options.section = section);
             for vertex in 0..count {
                 let normal = found.normal[vertex];
-                for entry in offsets[vertex] as usize..offsets[vertex + 1] as usize {
-                    let x = sub(mesh.positions[neighbours[entry] as usize], mesh.positions[vertex]);
+                let ring = offsets[vertex] as usize..offsets[vertex + 1] as usize;
+                for (entry, &neighbour) in ring.clone().zip(&neighbours[ring]) {
+                    let x = sub(mesh.positions[neighbour as usize], mesh.positions[vertex]);
                     let height = dot(normal, x);
                     let tangential = sub(x, scale(normal, height));
                     let divisor = if section == UMB_SECTION_CIRCLE { dot(x, x) } else { dot(tangential, tangential) };

@@ -84,7 +84,7 @@ pub struct umb_section_outputs {
 /// Computes the curvature of the section along every edge of every vertex's ring, with the vertex normal.
 ///
 /// `curvature` and `status` have an element for each entry of the ring array (`umb_topology_ring_neighbours`): the sections of
-/// vertex v are those from `umb_topology_ring_offsets`[v] on. With a list of vertices only their entries are written.
+/// vertex v are those from entry v of `umb_topology_ring_offsets` on. With a list of vertices only their entries are written.
 /// `directions` must be zero.
 ///
 /// Precision, bits, threads, cost: as `umb_curvatures`.

@@ -350,7 +350,9 @@ impl Ball {
         let diameter = 2.0 * (cell[0].max(0.0) / std::f64::consts::PI).sqrt() / cell[9];
         let inside = self.radius - Ball::distance(points, centre, vertex);
         // A cell without area is in or out; one infinitely large and far away is out.
-        if diameter > 0.0 { (0.5 + inside / diameter).max(0.0).min(1.0) } else { (inside > 0.0) as u8 as f64 }
+        let part = if diameter > 0.0 { 0.5 + inside / diameter } else { (inside > 0.0) as u8 as f64 };
+        // Of sizes beyond the range nothing is known, and nothing is taken.
+        if part > 0.0 { part.min(1.0) } else { 0.0 }
     }
 }
 

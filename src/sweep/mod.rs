@@ -279,7 +279,8 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
                 if single {
                     let mut count = 0;
                     for block in vertices.chunks(W::Single::LANES) {
-                        let (ring, scale, _, mut scratch) = sweep.load(block, corners, closed, &mut single_rows);
+                        let Loaded { ring, scale, mut scratch, .. } =
+                            sweep.load(block, corners, closed, &mut single_rows);
                         let bits = calls.single(block, &ring, &scale, &mut scratch);
                         if bits != 0 {
                             for (_, &vertex) in block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0) {
@@ -291,7 +292,8 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
                     vertices = &doubtful[..count];
                 }
                 for block in vertices.chunks(W::Double::LANES) {
-                    let (ring, scale, faces, mut scratch) = sweep.load(block, corners, closed, &mut double_rows);
+                    let Loaded { ring, scale, faces, mut scratch } =
+                        sweep.load(block, corners, closed, &mut double_rows);
                     let bits = if let Some(frames) = &sweep.frames {
                         sweep.load_faces(frames, calls.centroids(), block, scale, faces);
                         calls.polygons(block, &ring.with_faces(PolygonFaces(faces)), &scale, &mut scratch)
@@ -311,9 +313,19 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
     }
 }
 
+/// The rings of a block.
+struct Loaded<'r, V> {
+    ring: Ring<'r, V, Triangles>,
+    /// How many of the rings' units make one of the mesh.
+    scale: V,
+    /// One for each corner, to be filled where they are not triangles.
+    faces: &'r mut [Polygon<V>],
+    /// For the estimator.
+    scratch: Scratch<'r, V>,
+}
+
 impl<S: Coordinate> Sweep<'_, S> {
-    /// Loads the rings of a block, in their own units, of which so many make one of the mesh; also a face for each corner
-    /// to be filled where they are not triangles, and the estimator's scratch.
+    /// Loads the rings of a block, in their own units.
     #[inline(always)]
     fn load<'r, V: Vector>(
         &self,
@@ -321,7 +333,7 @@ impl<S: Coordinate> Sweep<'_, S> {
         corners: usize,
         closed: bool,
         rows: &'r mut LaneRows<V>,
-    ) -> (Ring<'r, V, Triangles>, V, &'r mut [Polygon<V>], Scratch<'r, V>) {
+    ) -> Loaded<'r, V> {
         let Rows { edges, squared, normals, faces, scratch } = rows.rows();
         let edges = &mut edges[..corners + 1];
         let squared = &mut squared[..corners + 1];
@@ -339,7 +351,8 @@ impl<S: Coordinate> Sweep<'_, S> {
         }
         let scale = extent.unit_scale();
         scale_edges(edges, squared, scale);
-        (Ring { edges, squared, closed, faces: Triangles, normals }, scale, &mut faces[..corners], scratch)
+        let ring = Ring { edges, squared, closed, faces: Triangles, normals };
+        Loaded { ring, scale, faces: &mut faces[..corners], scratch }
     }
 
     /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.

@@ -15,9 +15,10 @@ pub fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>
         matrix.swap(k, pivot);
         right.swap(k, pivot);
         for row in k + 1..n {
-            let factor = matrix[row][k] / matrix[k][k];
-            for column in k..n {
-                matrix[row][column] -= factor * matrix[k][column];
+            let (above, below) = matrix.split_at_mut(row);
+            let factor = below[0][k] / above[k][k];
+            for (number, pivot) in below[0][k..].iter_mut().zip(&above[k][k..]) {
+                *number -= factor * pivot;
             }
             right[row] -= factor * right[k];
         }
