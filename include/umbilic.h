@@ -336,7 +336,7 @@ typedef struct umb_fan {
 typedef uint32_t umb_scalar;
 
 /**
- * Vertex positions, `#V × 3`, borrowed for the call.
+ * Vertex positions, `#V × 3`, borrowed for the call; also normals and directions, where a struct says so.
  *
  * The coordinates of a vertex lie next to each other; vertices lie `stride` bytes apart, so the points of OpenMesh,
  * CGAL or MeshLab, and interleaved vertex buffers, are read where they are.
@@ -609,7 +609,8 @@ typedef struct umb_curvature_options {
    */
   umb_weight weight;
   /**
-   * For measures, the radius of a ball around the vertex instead of rings, in the mesh's unit; 0 for none. A vertex
+   * For measures, the radius of a ball around the vertex instead of rings (`rings` is 0 then), in the mesh's unit; 0 for
+   * none. A vertex
    * connected to the centre inside the ball counts with its share of the surface, by the part of it inside. The cost
    * grows with the number of vertices in each ball.
    */
@@ -631,8 +632,9 @@ typedef struct umb_curvature_options {
    */
   uint32_t normal_rings;
   /**
-   * Vertex normals of the caller's, `#V x 3`, of any length; a vertex whose normal is zero has no curvature. Null data:
-   * computed with `weight`.
+   * Vertex normals of the caller's, `#V x 3`, of any length, on the side from which the faces run counter-clockwise: those
+   * on the other change the signs of some methods and leave others without result. A vertex whose normal is zero has no
+   * curvature. Null data: computed with `weight`.
    */
   struct umb_points normals;
   /**
@@ -1109,8 +1111,8 @@ typedef struct umb_polyline_outputs {
 
 /**
  * The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
- * `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within a few degrees
- * of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
+ * `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within about a
+ * degree of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
  * (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
  */
 #define UMB_CURVATURE_LEAST_SQUARES 3
@@ -1136,7 +1138,9 @@ typedef struct umb_polyline_outputs {
 
 /**
  * The angle defect of Gauss and Bonnet: 2 pi less the angles of a closed fan, pi less those of an open one; fans add up.
- * The integrals over all vertices sum up to 2 pi times the Euler characteristic. Takes no normals.
+ * The integrals over all vertices sum up to 2 pi times the Euler characteristic; where vertices have several fans or edges
+ * end them, to that of the surface cut open there. Without area the pointwise K is 0 (`UMB_VERTEX_FALLBACK`) and the integral
+ * stands. Takes no normals.
  */
 #define UMB_CURVATURE_ANGLE_DEFECT 7
 
@@ -1442,11 +1446,11 @@ umb_status umb_face_normals(const struct umb_faces *faces,
  * Computes curvatures at the vertices of a mesh.
  *
  * Signs: a normal section is positive where the surface bends away from the normal, so a sphere of radius r with outward
- * normals (faces counter-clockwise from outside) has k1 = k2 = H = 1/r and K = 1/r^2; reversing all faces changes the sign
- * of all but K. k1 >= k2.
+ * normals (faces counter-clockwise from outside) has k1 = k2 = H = 1/r and K = 1/r^2. k1 >= k2. Reversing all faces makes k1
+ * of -k2 and the other way round, and exchanges the directions; H and its integral change sign, K, H N and areas do not.
  *
  * A vertex without any face is isolated, one where the method has nothing to work with is degenerate (no normal, no area, no
- * edge with a length): all results are 0 there. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
+ * edge with a length): all results are 0 there but the normal, if there is one. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
  * stands. What each method makes of a boundary is said with its constant; the status tells boundary vertices.
  *
  * Everything is computed in double precision, relative to each vertex and scaled by powers of two, so neither the distance
@@ -1454,7 +1458,8 @@ umb_status umb_face_normals(const struct umb_faces *faces,
  * vectors and any choice of vertices.
  *
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners; for methods of several
- * rings, times the vertices within these (at most 255, of which evenly spaced ones are taken where there are more).
+ * rings, times the vertices within these. A neighbourhood of several rings ends at 255 vertices, breadth first, and takes
+ * 64 evenly spaced neighbours of a vertex that has more.
  *
  * @param topology the handle
  * @param points the positions of all its vertices, as many as the topology has; read only during the call

@@ -41,8 +41,8 @@ pub const UMB_CURVATURE_QUADRIC: umb_curvature_method = 1;
 /// (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
 pub const UMB_CURVATURE_GOLDFEATHER: umb_curvature_method = 2;
 /// The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
-/// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within a few degrees
-/// of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
+/// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within about a
+/// degree of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
 /// (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
 pub const UMB_CURVATURE_LEAST_SQUARES: umb_curvature_method = 3;
 /// Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
@@ -56,7 +56,9 @@ pub const UMB_CURVATURE_WATANABE: umb_curvature_method = 5;
 /// hold the pull and the turning of the boundary. Does not converge on irregular meshes.
 pub const UMB_CURVATURE_MEYER: umb_curvature_method = 6;
 /// The angle defect of Gauss and Bonnet: 2 pi less the angles of a closed fan, pi less those of an open one; fans add up.
-/// The integrals over all vertices sum up to 2 pi times the Euler characteristic. Takes no normals.
+/// The integrals over all vertices sum up to 2 pi times the Euler characteristic; where vertices have several fans or edges
+/// end them, to that of the surface cut open there. Without area the pointwise K is 0 (`UMB_VERTEX_FALLBACK`) and the integral
+/// stands. Takes no normals.
 pub const UMB_CURVATURE_ANGLE_DEFECT: umb_curvature_method = 7;
 /// Rusinkiewicz 2004: shape operators of faces from the differences of vertex normals, averaged by mixed area. Converges if
 /// the normals are better than first order.
@@ -83,7 +85,8 @@ pub struct umb_curvature_options {
     pub section: umb_section,
     /// The weight of the vertex normals, if `normals.data` is null.
     pub weight: umb_weight,
-    /// For measures, the radius of a ball around the vertex instead of rings, in the mesh's unit; 0 for none. A vertex
+    /// For measures, the radius of a ball around the vertex instead of rings (`rings` is 0 then), in the mesh's unit; 0 for
+    /// none. A vertex
     /// connected to the centre inside the ball counts with its share of the surface, by the part of it inside. The cost
     /// grows with the number of vertices in each ball.
     pub radius: f64,
@@ -95,8 +98,9 @@ pub struct umb_curvature_options {
     pub normal_degree: u32,
     /// `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
     pub normal_rings: u32,
-    /// Vertex normals of the caller's, `#V x 3`, of any length; a vertex whose normal is zero has no curvature. Null data:
-    /// computed with `weight`.
+    /// Vertex normals of the caller's, `#V x 3`, of any length, on the side from which the faces run counter-clockwise: those
+    /// on the other change the signs of some methods and leave others without result. A vertex whose normal is zero has no
+    /// curvature. Null data: computed with `weight`.
     pub normals: umb_points,
     /// How to run.
     pub run: umb_run,
@@ -151,11 +155,11 @@ pub struct umb_curvature_outputs {
 /// Computes curvatures at the vertices of a mesh.
 ///
 /// Signs: a normal section is positive where the surface bends away from the normal, so a sphere of radius r with outward
-/// normals (faces counter-clockwise from outside) has k1 = k2 = H = 1/r and K = 1/r^2; reversing all faces changes the sign
-/// of all but K. k1 >= k2.
+/// normals (faces counter-clockwise from outside) has k1 = k2 = H = 1/r and K = 1/r^2. k1 >= k2. Reversing all faces makes k1
+/// of -k2 and the other way round, and exchanges the directions; H and its integral change sign, K, H N and areas do not.
 ///
 /// A vertex without any face is isolated, one where the method has nothing to work with is degenerate (no normal, no area, no
-/// edge with a length): all results are 0 there. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
+/// edge with a length): all results are 0 there but the normal, if there is one. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
 /// stands. What each method makes of a boundary is said with its constant; the status tells boundary vertices.
 ///
 /// Everything is computed in double precision, relative to each vertex and scaled by powers of two, so neither the distance
@@ -163,7 +167,8 @@ pub struct umb_curvature_outputs {
 /// vectors and any choice of vertices.
 ///
 /// Threads: any number of calls may use one topology at once. Cost: linear in the number of corners; for methods of several
-/// rings, times the vertices within these (at most 255, of which evenly spaced ones are taken where there are more).
+/// rings, times the vertices within these. A neighbourhood of several rings ends at 255 vertices, breadth first, and takes
+/// 64 evenly spaced neighbours of a vertex that has more.
 ///
 /// @param topology the handle
 /// @param points the positions of all its vertices, as many as the topology has; read only during the call

@@ -37,7 +37,7 @@ pub const UMB_SIMD_AVX2: umb_simd = 3;
 /// At most AVX-512.
 pub const UMB_SIMD_AVX512: umb_simd = 4;
 
-/// Vertex positions, `#V × 3`, borrowed for the call.
+/// Vertex positions, `#V × 3`, borrowed for the call; also normals and directions, where a struct says so.
 ///
 /// The coordinates of a vertex lie next to each other; vertices lie `stride` bytes apart, so the points of OpenMesh,
 /// CGAL or MeshLab, and interleaved vertex buffers, are read where they are.

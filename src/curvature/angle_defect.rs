@@ -17,9 +17,12 @@
 use super::outputs::Local;
 use super::principal::Frame;
 use super::ring::RingEstimator;
-use crate::simd::Vector;
+use crate::simd::{Mask, Vector};
 use crate::sweep::{Ring, RingFaces, Scratch};
 use std::f64::consts::{PI, TAU};
+
+/// Where the pointwise value would be larger than this, in the ring's units, there is none.
+const LARGEST_GAUSSIAN: f64 = f64::from_bits((1023 + 400) << 52);
 
 /// Gauss–Bonnet.
 pub(crate) struct AngleDefect;
@@ -68,11 +71,14 @@ impl RingEstimator for AngleDefect {
     #[inline(always)]
     fn finish<V: Vector>(&self, sums: &Sums<V>, frame: &Frame<V>) -> Local<V> {
         let inverse = sums.area.reciprocal_or_zero();
+        let gaussian = sums.defect * inverse;
+        // An area out of all proportion is none.
+        let there = V::zero().lt(inverse).and(gaussian.abs().lt(V::constant(LARGEST_GAUSSIAN)));
         Local {
-            gaussian: sums.defect * inverse,
+            gaussian: V::select(there, gaussian, V::zero()),
             area: sums.area,
             integrated_gaussian: sums.defect,
-            fallback: inverse.lt(V::constant(f64::MIN_POSITIVE)),
+            fallback: V::select(there, V::one(), V::zero()).lt(V::one()),
             ..Local::new(frame.normal)
         }
     }

@@ -15,7 +15,7 @@
 
 use super::ring::{load_vectors, own_normals};
 use super::section::ThreePoints;
-use super::vertex::{VertexNormals, unit_normals};
+use super::vertex::{NORMAL_SHARE, VertexNormals, unit_normals};
 use super::{Section, SectionOutputs, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
@@ -78,7 +78,7 @@ pub fn direction_sections(
     }
     let normals = unit_normals(topology, points, normals, &mut run)?;
     let quantity = DirectionSections { normals: &normals, directions, shared, section, outputs };
-    sweep(topology, points, &mut run, true, &quantity)?;
+    run.part(NORMAL_SHARE, 1.0, |mut run| sweep(topology, points, &mut run, true, &quantity))?;
     outputs.write_normals(&normals, run.vertices);
     Ok(())
 }
@@ -230,7 +230,7 @@ impl Quantity for DirectionSections<'_> {
             found.add(ring, along, normal.cross(along));
             self.write(vertices, index, along, normal, &found, scale);
         }
-        0
+        ring.overflowed() & ((1u32 << vertices.len()) - 1)
     }
 
     fn alone<F: RingFaces<f64>>(

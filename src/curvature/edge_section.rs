@@ -7,7 +7,7 @@
 
 use super::ring::own_normals;
 use super::section::{EdgeCurvature, edge};
-use super::vertex::{VertexNormals, unit_normals};
+use super::vertex::{NORMAL_SHARE, VertexNormals, unit_normals};
 use super::{Section, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
@@ -76,7 +76,7 @@ pub fn edge_sections(
     outputs.check(topology.rings().entry_count(), topology.vertex_count())?;
     let normals = unit_normals(topology, points, normals, &mut run)?;
     let quantity = EdgeSections { topology, normals: &normals, section, outputs };
-    sweep(topology, points, &mut run, true, &quantity)?;
+    run.part(NORMAL_SHARE, 1.0, |mut run| sweep(topology, points, &mut run, true, &quantity))?;
     outputs.write_normals(&normals, run.vertices);
     Ok(())
 }
@@ -112,7 +112,7 @@ impl Quantity for EdgeSections<'_> {
                 self.write(entry, curvatures[lane].into(), weights[lane].into());
             }
         }
-        0
+        ring.overflowed() & ((1u32 << vertices.len()) - 1)
     }
 
     fn alone<F: RingFaces<f64>>(

@@ -15,7 +15,7 @@ use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::{Frame, Operator};
 use super::ring::{Curvatures, RingEstimator, own_normals};
 use crate::error::{Error, reserved};
-use crate::parallel::{Run, for_each_chunk, thread_count};
+use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
 use crate::simd::{MAX_LANES, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Neighbourhood, Topology, closure, status};
@@ -127,6 +127,9 @@ pub(crate) enum Region {
     Ball(f64),
 }
 
+/// The part of the work that goes into cells, for progress.
+const CELL_SHARE: f64 = 0.3;
+
 /// A measure in numbers, and how many of its units of length make one of the mesh.
 type Cell = [f64; 10];
 
@@ -161,7 +164,7 @@ impl<E: MeasureEstimator> Quantity for Cells<'_, E> {
         for (lane, &vertex) in vertices.iter().enumerate() {
             self.cells.write(vertex as usize, rows.map(|row| row[lane].into()));
         }
-        0
+        ring.overflowed() & ((1u32 << vertices.len()) - 1)
     }
 
     fn alone<F: RingFaces<f64>>(
@@ -202,15 +205,9 @@ pub(crate) fn over_region<E: MeasureEstimator>(
         return sweep(topology, points, &mut run, true, &quantity);
     }
     let mut cells: Vec<Cell> = zeroed(topology.vertex_count())?;
-    let mut first = Run { threads: run.threads, level: run.level, vertices: listed, progress: None };
     let estimator = std::marker::PhantomData;
-    sweep(
-        topology,
-        points,
-        &mut first,
-        true,
-        &Cells::<E> { cells: cells.as_mut_slice().into(), normals, estimator },
-    )?;
+    let quantity = Cells::<E> { cells: cells.as_mut_slice().into(), normals, estimator };
+    run.part_for(listed, 0.0, CELL_SHARE, |mut run| sweep(topology, points, &mut run, true, &quantity))?;
 
     // A vertex costs as much as its region is large, so few are claimed at a time.
     const CHUNK: usize = 128;
@@ -223,7 +220,7 @@ pub(crate) fn over_region<E: MeasureEstimator>(
         gathers.push(Gather::new(topology, region)?);
     }
     let gathers = Mutex::new(gathers);
-    for_each_chunk(&mut run, chunks, |claims| {
+    let sum_up = |claims: &mut Claims<'_, '_>| {
         let Some(mut gather) = gathers.lock().unwrap_or_else(PoisonError::into_inner).pop() else { return };
         while let Some(chunk) = claims.next() {
             for index in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
@@ -253,7 +250,8 @@ pub(crate) fn over_region<E: MeasureEstimator>(
                 }
             }
         }
-    })
+    };
+    run.part(CELL_SHARE, 1.0, |mut run| for_each_chunk(&mut run, chunks, sum_up))
 }
 
 /// Adds up cells over a region.
@@ -325,6 +323,10 @@ impl Ball {
 
     /// Fills `found`, breadth first.
     fn visit(&mut self, topology: &Topology, points: &Points<'_>, centre: u32) {
+        if self.visit == u32::MAX {
+            self.seen.fill(0);
+            self.visit = 0;
+        }
         self.visit += 1;
         self.found.clear();
         self.found.push(centre);

@@ -11,7 +11,7 @@
 //! Numerical notes: `H` is eliminated first; the remaining 2 × 2 matrix is diagonalised, so that a part of `(p, q)` that the
 //! edges do not determine is told apart in any frame.
 //! Degenerate rule: edges without length or along the normal are left out. Where the directions leave a part of `(p, q)`
-//! undetermined (all edges within a few degrees of one line, or of two perpendicular ones as in a grid of quads), that part is zero, which
+//! undetermined (all edges within about a degree of one line, or of two perpendicular ones as in a grid of quads), that part is zero, which
 //! makes the point as round as the sections allow, and the status says fallback. A vertex without any edge left has no
 //! result. A boundary needs no rule. Cost: two divisions and a dozen products an edge.
 

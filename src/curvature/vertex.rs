@@ -100,7 +100,7 @@ pub fn curvatures(
 }
 
 /// The part of the work that goes into the vertex normals, for progress.
-const NORMAL_SHARE: f64 = 0.2;
+pub(super) const NORMAL_SHARE: f64 = 0.2;
 
 /// How many rings around a vertex a method needs normals of.
 fn normal_rings(options: &CurvatureOptions<'_>) -> usize {

@@ -158,15 +158,16 @@ fn rotate<V: Vector<Scalar = f64>, const P: usize, const Q: usize, const R: usiz
     let tangent = V::select(active, signed / V::select(active, width, V::one()), V::zero());
     let cosine = V::one() / (V::one() + tangent * tangent).sqrt();
     let sine = tangent * cosine;
-    diagonal[P] = diagonal[P] - tangent * element;
-    diagonal[Q] = diagonal[Q] + tangent * element;
+    // A rotation by nothing would still turn -0 to 0, and how many rounds a lane goes through depends on its neighbours.
+    diagonal[P] = V::select(active, diagonal[P] - tangent * element, diagonal[P]);
+    diagonal[Q] = V::select(active, diagonal[Q] + tangent * element, diagonal[Q]);
     off[R] = V::select(active, V::zero(), element);
     let (p, q) = (off[Q], off[P]);
-    off[Q] = cosine * p - sine * q;
-    off[P] = sine * p + cosine * q;
+    off[Q] = V::select(active, cosine * p - sine * q, p);
+    off[P] = V::select(active, sine * p + cosine * q, q);
     let (p, q) = (axes[P], axes[Q]);
-    axes[P] = p * cosine - q * sine;
-    axes[Q] = p * sine + q * cosine;
+    axes[P] = choose(active, p * cosine - q * sine, p);
+    axes[Q] = choose(active, p * sine + q * cosine, q);
 }
 
 #[cfg(test)]

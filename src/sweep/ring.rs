@@ -34,6 +34,17 @@ impl<'a, V: Vector, F: RingFaces<V>> Ring<'a, V, F> {
         Ring { edges, squared, closed, faces, normals }
     }
 
+    /// A bit for each lane in which a difference of positions has left the range: only the vertex-by-vertex path brings
+    /// these closer first.
+    #[inline(always)]
+    pub fn overflowed(&self) -> u32 {
+        let mut sum = V::zero();
+        for &squared in self.squared {
+            sum = sum + squared;
+        }
+        !sum.lt(V::splat(V::Scalar::INFINITY)).bits()
+    }
+
     /// The number of different edges.
     #[inline(always)]
     pub fn edge_count(&self) -> usize {
