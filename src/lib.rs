@@ -37,8 +37,8 @@ pub use curvature::{
     section_status,
 };
 pub use error::Error;
-pub use fit::JetOptions;
-pub use normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+pub use fit::{AdaptiveModel, Coordinates, JetOptions};
+pub use normals::{AdaptiveOptions, FaceOutputs, learn_model, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
 pub use parallel::Run;
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};

@@ -1,7 +1,8 @@
 //! Curvatures of meshes.
 
+use super::adaptive::{model_given, umb_adaptive_model};
 use super::guard::{check_reserved, guard, read_required, read_versioned, required};
-use super::normals::{umb_weight, weight};
+use super::normals::{AskedWeight, umb_weight};
 use super::sections::{section, umb_section, vertex_normals_asked};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
@@ -16,6 +17,7 @@ use std::mem::offset_of;
 ///
 /// | method                       | k1 k2, shape index, curvedness | directions | H, H N | K | area | integrals | residual | condition |
 /// |------------------------------|---|---|---|---|---|-------|-----------|---|
+/// | ADAPTIVE_JET                 | x | x | x | x |   |       | length    | degrees of freedom |
 /// | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
 /// | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
 /// | TAUBIN, RUSINKIEWICZ         | x | x | x | x |   |       |           |   |
@@ -27,52 +29,59 @@ use std::mem::offset_of;
 ///
 /// Every method takes triangles and polygons, and any vertex: boundary, non-manifold (all fans count together), isolated.
 pub type umb_curvature_method = u32;
+/// Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 4) rings, whose weights and prior follow from
+/// the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
+/// surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
+/// Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
+/// so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE`) has the curvatures that fit the circles along its edges
+/// best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+pub const UMB_CURVATURE_ADAPTIVE_JET: umb_curvature_method = 0;
 /// Osculating jets (Cazals and Pouget 2005): a polynomial height field over several rings, over the plane of least squares of
 /// its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
-/// 3 at degree 4). Of order degree - 1 on meshes of any kind: the default. Where points are too few or in special position
+/// 3 at degree 4). Of order degree - 1 on meshes of any kind. Where points are too few or in special position
 /// the neighbourhood is widened (`UMB_VERTEX_WIDENED`), then the degree lowered, then curvatures are 0
 /// (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `normals`, if given, tell its sides apart, else area-weighted
 /// ones do; `weight` is not looked at.
-pub const UMB_CURVATURE_JET: umb_curvature_method = 0;
+pub const UMB_CURVATURE_JET: umb_curvature_method = 1;
 /// A quadratic height field in the frame of the vertex normal, tangent to its plane (Hamann 1993). `rings` at most 8 (0: 1);
 /// widened as jets are. As good as the normals.
-pub const UMB_CURVATURE_QUADRIC: umb_curvature_method = 1;
+pub const UMB_CURVATURE_QUADRIC: umb_curvature_method = 2;
 /// Goldfeather and Interrante 2004: a cubic height field fitted to positions and normals of the neighbours. `rings` at most 8
 /// (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
-pub const UMB_CURVATURE_GOLDFEATHER: umb_curvature_method = 2;
+pub const UMB_CURVATURE_GOLDFEATHER: umb_curvature_method = 3;
 /// The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
 /// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within about a
 /// degree of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
 /// (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
-pub const UMB_CURVATURE_LEAST_SQUARES: umb_curvature_method = 3;
+pub const UMB_CURVATURE_LEAST_SQUARES: umb_curvature_method = 5;
 /// Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
 /// faces at an edge. Does not converge, unless the edges stand at even angles.
-pub const UMB_CURVATURE_TAUBIN: umb_curvature_method = 4;
+pub const UMB_CURVATURE_TAUBIN: umb_curvature_method = 6;
 /// Watanabe and Belyaev 2001: H and (3 H^2 - K)/2 as the means of sectional curvature and of its square, by the trapezoid rule
 /// over the angles of the faces. Does not converge, unless the edges stand at even angles.
-pub const UMB_CURVATURE_WATANABE: umb_curvature_method = 5;
+pub const UMB_CURVATURE_WATANABE: umb_curvature_method = 7;
 /// Meyer et al. 2003: H N by cotangents, K by the angle defect, both over the mixed Voronoi area (in polygons: by the
 /// Laplacian of Alexa and Wardetzky 2011, over an equal share of the area for each corner). At a boundary the integrals
 /// hold the pull and the turning of the boundary. Does not converge on irregular meshes.
-pub const UMB_CURVATURE_MEYER: umb_curvature_method = 6;
+pub const UMB_CURVATURE_MEYER: umb_curvature_method = 8;
 /// The angle defect of Gauss and Bonnet: 2 pi less the angles of a closed fan, pi less those of an open one; fans add up.
 /// The integrals over all vertices sum up to 2 pi times the Euler characteristic; where vertices have several fans or edges
 /// end them, to that of the surface cut open there. Without area the pointwise K is 0 (`UMB_VERTEX_FALLBACK`) and the integral
 /// stands. Takes no normals.
-pub const UMB_CURVATURE_ANGLE_DEFECT: umb_curvature_method = 7;
+pub const UMB_CURVATURE_ANGLE_DEFECT: umb_curvature_method = 9;
 /// Rusinkiewicz 2004: shape operators of faces from the differences of vertex normals, averaged by mixed area. Converges if
 /// the normals are better than first order.
-pub const UMB_CURVATURE_RUSINKIEWICZ: umb_curvature_method = 8;
+pub const UMB_CURVATURE_RUSINKIEWICZ: umb_curvature_method = 10;
 /// The normal cycle (Cohen-Steiner and Morvan 2003): dihedral angles along edges, over a region of `rings` (0: 1) or of
 /// `radius`. Edges of a single face have none, so values at a boundary are too small, and so are those on polygons that are
 /// not flat, whose twist no edge has. Converges over balls that shrink more slowly than the edges.
-pub const UMB_CURVATURE_NORMAL_CYCLE: umb_curvature_method = 9;
+pub const UMB_CURVATURE_NORMAL_CYCLE: umb_curvature_method = 11;
 /// Interpolated corrected curvature measures (Lachaud, Romon, Thibert and Coeurjolly 2020), over a region of `rings` (0: 1) or
 /// of `radius`. Converges if the normals do; exact on spheres with exact normals. H and K are the measures by the area; k1,
 /// k2 and the directions come from the tensor, so k1 k2 is K only in the limit.
-pub const UMB_CURVATURE_CORRECTED_MEASURE: umb_curvature_method = 10;
+pub const UMB_CURVATURE_CORRECTED_MEASURE: umb_curvature_method = 12;
 
-/// Which curvatures to compute, and how. All zero: jets of degree 3 over two rings, at all vertices.
+/// Which curvatures to compute, and how. All zero: adaptive jets over four rings, at all vertices.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_curvature_options {
@@ -96,8 +105,10 @@ pub struct umb_curvature_options {
     pub rings: u32,
     /// `UMB_WEIGHT_JET` only: see `degree` of `umb_normal_options`.
     pub normal_degree: u32,
-    /// `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+    /// `UMB_WEIGHT_JET` and `UMB_WEIGHT_ADAPTIVE_JET` only: see `rings` of `umb_normal_options`.
     pub normal_rings: u32,
+    /// What adaptive jets, as method or as weight, know of the mesh; null to learn it from all positions.
+    pub model: *const umb_adaptive_model,
     /// Vertex normals of the caller's, `#V x 3`, of any length, on the side from which the faces run counter-clockwise: those
     /// on the other change the signs of some methods and leave others without result. A vertex whose normal is zero has no
     /// curvature. Null data: computed with `weight`.
@@ -146,6 +157,8 @@ pub struct umb_curvature_outputs {
     pub residual: umb_output,
     /// The condition number of a fit (Frobenius norm, columns of length 1, so not CGAL's), `#V`.
     pub condition: umb_output,
+    /// How many of the 15 coefficients of an adaptive jet the data decide, and not the prior, `#V`; 0 where nothing was fitted.
+    pub degrees_of_freedom: umb_output,
     /// The unit normals that all this belongs to, `#V x 3`.
     pub normal: umb_output,
     /// `UMB_VERTEX_` bits, `#V`.
@@ -198,11 +211,18 @@ pub unsafe extern "C" fn umb_curvatures(
             let options = read_versioned(options)?;
             let outputs = curvature_outputs(outputs, topology.vertex_count())?;
             let small = |what, value: u32| u8::try_from(value).map_err(|_| Error::OptionOutOfRange { what });
-            let weight = weight(options.weight, options.normal_degree, options.normal_rings)?;
+            let weight = AskedWeight {
+                weight: options.weight,
+                degree: (options.normal_degree, "options.normal_degree"),
+                rings: (options.normal_rings, "options.normal_rings"),
+                model: options.model,
+            };
+            let method = method(options.method)?;
             let asked = CurvatureOptions {
-                method: method(options.method)?,
+                method,
                 section: section(options.section)?,
-                normals: vertex_normals_asked(&options.normals, weight)?,
+                normals: vertex_normals_asked(&options.normals, weight.view()?)?,
+                model: if method == Method::AdaptiveJet { model_given(options.model)? } else { None },
                 degree: small("options.degree", options.degree)?,
                 rings: options.rings as usize,
                 radius: options.radius,
@@ -239,6 +259,7 @@ unsafe fn curvature_outputs<'a>(
             curvedness: outputs.curvedness.view(count)?,
             residual: outputs.residual.view(count)?,
             condition: outputs.condition.view(count)?,
+            degrees_of_freedom: outputs.degrees_of_freedom.view(count)?,
             normal: outputs.normal.view(count)?,
             status: outputs.status.view(count)?,
         })
@@ -247,6 +268,7 @@ unsafe fn curvature_outputs<'a>(
 
 fn method(value: umb_curvature_method) -> Result<Method, Error> {
     Ok(match value {
+        UMB_CURVATURE_ADAPTIVE_JET => Method::AdaptiveJet,
         UMB_CURVATURE_JET => Method::Jet,
         UMB_CURVATURE_QUADRIC => Method::Quadric,
         UMB_CURVATURE_GOLDFEATHER => Method::Goldfeather,

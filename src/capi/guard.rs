@@ -92,6 +92,34 @@ pub(super) unsafe fn read_versioned<T: Versioned>(pointer: *const T) -> Result<T
     Ok(value)
 }
 
+/// Writes a struct of any version: as many of its fields as the caller's size says, which stays as it is. `value` is asked for
+/// once the pointer and the size are good.
+///
+/// # Errors
+/// [`Error::NullPointer`], [`Error::StructSize`], and those of `value`.
+///
+/// # Safety
+/// `pointer` is null, or points to as many readable and writable bytes as the size at their start says.
+pub(super) unsafe fn write_versioned<T: Versioned>(
+    pointer: *mut T,
+    what: &'static str,
+    value: impl FnOnce() -> Result<T, Error>,
+) -> Result<(), Error> {
+    // SAFETY: the size field is there if the pointer is not null.
+    let size = match unsafe { read_required(pointer.cast::<u32>().cast_const(), what) }? as usize {
+        0 => T::FIRST_SIZE,
+        size => size,
+    };
+    if !(T::FIRST_SIZE..=LARGEST_STRUCT).contains(&size) {
+        return Err(Error::StructSize { what: T::NAME, size });
+    }
+    let value = value()?;
+    let (from, to) = ((&raw const value).cast::<u8>(), pointer.cast::<u8>());
+    // SAFETY: both have that many bytes, and a `T` starts with its size.
+    unsafe { std::ptr::copy_nonoverlapping(from.add(4), to.add(4), size.min(size_of::<T>()) - 4) };
+    Ok(())
+}
+
 /// A versioned struct that may not be null.
 ///
 /// # Safety

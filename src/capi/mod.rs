@@ -10,6 +10,7 @@
 // The contracts are in the header's words, on each function.
 #![allow(clippy::missing_safety_doc)]
 
+mod adaptive;
 mod curvature;
 mod guard;
 mod normals;
@@ -20,6 +21,7 @@ mod topology;
 mod types;
 mod version;
 
+pub use adaptive::*;
 pub use curvature::*;
 pub use normals::*;
 pub use polyline::*;

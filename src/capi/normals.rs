@@ -1,12 +1,14 @@
 //! Vertex and face normals.
 
+use super::adaptive::{model_given, umb_adaptive_model};
 use super::guard::{check_reserved, guard, read_required, read_versioned, required};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
 use crate::error::Error;
-use crate::fit::JetOptions;
-use crate::normals::{FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+use crate::fit::{JetOptions, MOST_DEGREE};
+use crate::normals::{AdaptiveOptions, FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+use crate::sweep::MOST_RINGS;
 use std::mem::offset_of;
 
 /// How a vertex normal weighs the faces around the vertex, or what it fits: a `UMB_WEIGHT_` constant.
@@ -43,6 +45,12 @@ pub const UMB_WEIGHT_ANGLE_EDGES: umb_weight = 9;
 /// `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
 /// creases it rounds what the averages keep. The area-weighted normal says to which side it points.
 pub const UMB_WEIGHT_JET: umb_weight = 10;
+/// No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
+/// follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
+/// library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
+/// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE`) has the mean direction of its sides. See `rings` and `model` of
+/// `umb_normal_options`.
+pub const UMB_WEIGHT_ADAPTIVE_JET: umb_weight = 11;
 
 /// Which vertex normals to compute, and how. All zero: N_CM at all vertices.
 #[repr(C)]
@@ -56,10 +64,14 @@ pub struct umb_normal_options {
     pub run: umb_run,
     /// `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
     pub degree: u32,
-    /// `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
-    /// degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
-    /// than 255 vertices are used. Other weights do not look at it.
+    /// Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands for 4 for `UMB_WEIGHT_ADAPTIVE_JET`
+    /// (3 costs about half, and is as good on clean meshes), and for `UMB_WEIGHT_JET` for 1 at degree 1, 2 at degrees 2 and 3,
+    /// and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
+    /// used. Other weights do not look at it.
     pub rings: u32,
+    /// `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh; null to learn it from all positions. Other weights do not look at
+    /// it.
+    pub model: *const umb_adaptive_model,
 }
 
 /// Where vertex normals go; any of them may be left out.
@@ -160,7 +172,7 @@ pub unsafe extern "C" fn umb_vertex_normals(
             let outputs = vertex_outputs(outputs, topology.vertex_count())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals(topology, &points, weight(options.weight, options.degree, options.rings)?, run, &outputs)
+            vertex_normals(topology, &points, options.asked()?, run, &outputs)
         })
     }
 }
@@ -197,7 +209,7 @@ pub unsafe extern "C" fn umb_vertex_normals_from_faces(
             vertex_normals_from_faces(
                 &faces,
                 &points,
-                weight(options.weight, options.degree, options.rings)?,
+                options.asked()?,
                 run,
                 &outputs,
             )
@@ -269,26 +281,56 @@ unsafe fn vertex_outputs<'a>(
     }
 }
 
-/// A weight, and the options of a jet in case that is it.
-pub(super) fn weight(weight: umb_weight, degree: u32, rings: u32) -> Result<Weight, Error> {
-    Ok(match weight {
-        UMB_WEIGHT_CONFORMAL => Weight::Conformal,
-        UMB_WEIGHT_UNIFORM => Weight::Uniform,
-        UMB_WEIGHT_ANGLE => Weight::Angle,
-        UMB_WEIGHT_AREA => Weight::Area,
-        UMB_WEIGHT_MAX => Weight::Max,
-        UMB_WEIGHT_CENTROID_AREA => Weight::CentroidArea,
-        UMB_WEIGHT_CENTROID => Weight::Centroid,
-        UMB_WEIGHT_INVERSE_ROOT_EDGES => Weight::InverseRootEdges,
-        UMB_WEIGHT_SINE => Weight::Sine,
-        UMB_WEIGHT_ANGLE_EDGES => Weight::AngleEdges,
-        UMB_WEIGHT_JET => {
-            let small = |what, value: u32| u8::try_from(value).map_err(|_| Error::OptionOutOfRange { what });
-            Weight::Jet(JetOptions {
-                degree: small("options.degree", degree)?,
-                rings: small("options.rings", rings)?,
-            })
-        }
-        value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
-    })
+/// What says which normals: a weight, and what only some weights look at. With the names of the last two.
+pub(super) struct AskedWeight {
+    pub weight: umb_weight,
+    pub degree: (u32, &'static str),
+    pub rings: (u32, &'static str),
+    pub model: *const umb_adaptive_model,
+}
+
+impl AskedWeight {
+    /// # Safety
+    /// `model` is null or as the header asks.
+    pub(super) unsafe fn view(&self) -> Result<Weight, Error> {
+        let small = |(value, what): (u32, &'static str)| match u8::try_from(value) {
+            Ok(value) if value as usize <= MOST_RINGS => Ok(value),
+            _ => Err(Error::OptionOutOfRange { what }),
+        };
+        Ok(match self.weight {
+            UMB_WEIGHT_CONFORMAL => Weight::Conformal,
+            UMB_WEIGHT_UNIFORM => Weight::Uniform,
+            UMB_WEIGHT_ANGLE => Weight::Angle,
+            UMB_WEIGHT_AREA => Weight::Area,
+            UMB_WEIGHT_MAX => Weight::Max,
+            UMB_WEIGHT_CENTROID_AREA => Weight::CentroidArea,
+            UMB_WEIGHT_CENTROID => Weight::Centroid,
+            UMB_WEIGHT_INVERSE_ROOT_EDGES => Weight::InverseRootEdges,
+            UMB_WEIGHT_SINE => Weight::Sine,
+            UMB_WEIGHT_ANGLE_EDGES => Weight::AngleEdges,
+            UMB_WEIGHT_JET => {
+                let degree = small(self.degree)?;
+                if degree > MOST_DEGREE {
+                    return Err(Error::OptionOutOfRange { what: self.degree.1 });
+                }
+                Weight::Jet(JetOptions { degree, rings: small(self.rings)? })
+            }
+            UMB_WEIGHT_ADAPTIVE_JET => {
+                // SAFETY: handed on.
+                let model = unsafe { model_given(self.model) }?;
+                Weight::AdaptiveJet(AdaptiveOptions { rings: small(self.rings)?, model })
+            }
+            value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
+        })
+    }
+}
+
+impl umb_normal_options {
+    /// # Safety
+    /// As the header asks.
+    unsafe fn asked(&self) -> Result<Weight, Error> {
+        let (degree, rings) = ((self.degree, "options.degree"), (self.rings, "options.rings"));
+        // SAFETY: handed on.
+        unsafe { AskedWeight { weight: self.weight, degree, rings, model: self.model }.view() }
+    }
 }

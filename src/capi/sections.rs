@@ -1,7 +1,8 @@
 //! Sections of meshes.
 
+use super::adaptive::umb_adaptive_model;
 use super::guard::{check_reserved, guard, read_required, read_versioned, required};
-use super::normals::{umb_weight, weight};
+use super::normals::{AskedWeight, umb_weight};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_output, umb_points, umb_run, umb_status_output};
@@ -59,8 +60,10 @@ pub struct umb_section_options {
     pub directions: umb_points,
     /// `UMB_WEIGHT_JET` only: see `degree` of `umb_normal_options`.
     pub normal_degree: u32,
-    /// `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+    /// `UMB_WEIGHT_JET` and `UMB_WEIGHT_ADAPTIVE_JET` only: see `rings` of `umb_normal_options`.
     pub normal_rings: u32,
+    /// `UMB_WEIGHT_ADAPTIVE_JET` only: see `model` of `umb_normal_options`.
+    pub model: *const umb_adaptive_model,
     /// How to run.
     pub run: umb_run,
 }
@@ -203,9 +206,14 @@ unsafe fn section_outputs<'a>(
 /// # Safety
 /// As [`umb_points::view`], for the options' normals.
 unsafe fn normals_of<'a>(options: &umb_section_options) -> Result<VertexNormals<'a>, Error> {
-    let weight = weight(options.weight, options.normal_degree, options.normal_rings)?;
+    let asked = AskedWeight {
+        weight: options.weight,
+        degree: (options.normal_degree, "options.normal_degree"),
+        rings: (options.normal_rings, "options.normal_rings"),
+        model: options.model,
+    };
     // SAFETY: handed on.
-    unsafe { vertex_normals_asked(&options.normals, weight) }
+    unsafe { vertex_normals_asked(&options.normals, asked.view()?) }
 }
 
 /// The normals given, or those of a weight.

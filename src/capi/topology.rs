@@ -1,6 +1,6 @@
 //! Topology handles.
 
-use super::guard::{LARGEST_STRUCT, check_reserved, guard, read_required, read_versioned};
+use super::guard::{check_reserved, guard, read_required, read_versioned, write_versioned};
 use super::status::{umb_error, umb_status};
 use super::types::umb_faces;
 use crate::error::Error;
@@ -23,12 +23,15 @@ pub const UMB_VERTEX_FALLBACK: u8 = 16;
 pub const UMB_VERTEX_DEGENERATE: u8 = 32;
 /// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
 pub const UMB_VERTEX_WIDENED: u8 = 64;
+/// The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its curvatures
+/// are those of sections. Set by adaptive jets only.
+pub const UMB_VERTEX_CREASE: u8 = 128;
 
 const _: () = {
     assert!(UMB_VERTEX_BOUNDARY == status::BOUNDARY && UMB_VERTEX_NON_MANIFOLD == status::NON_MANIFOLD);
     assert!(UMB_VERTEX_WINDING == status::WINDING && UMB_VERTEX_ISOLATED == status::ISOLATED);
     assert!(UMB_VERTEX_FALLBACK == status::FALLBACK && UMB_VERTEX_DEGENERATE == status::DEGENERATE);
-    assert!(UMB_VERTEX_WIDENED == status::WIDENED);
+    assert!(UMB_VERTEX_WIDENED == status::WIDENED && UMB_VERTEX_CREASE == status::CREASE);
 };
 
 /// The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
@@ -90,10 +93,6 @@ pub struct umb_topology_stats {
     /// Heap memory that the handle holds, in bytes.
     pub bytes: u64,
 }
-
-/// The size of `umb_topology_stats` in its first version.
-const STATS_FIRST_SIZE: usize = 8 + 18 * 8;
-const _: () = assert!(size_of::<umb_topology_stats>() == STATS_FIRST_SIZE);
 
 /// One fan of a vertex: a run of faces in which each shares an edge with the next.
 #[repr(C)]
@@ -214,13 +213,10 @@ pub unsafe extern "C" fn umb_topology_get_stats(
     unsafe {
         guard(error, || {
             let topology = topology.as_ref().ok_or(Error::NullPointer { what: "topology" })?;
-            let claimed = read_required(stats.cast::<u32>().cast_const(), "stats")? as usize;
-            if claimed != 0 && !(STATS_FIRST_SIZE..=LARGEST_STRUCT).contains(&claimed) {
-                return Err(Error::StructSize { what: "umb_topology_stats", size: claimed });
-            }
+            write_versioned(stats, "stats", || {
             let found = topology.0.stats()?;
-            stats.write_unaligned(umb_topology_stats {
-                struct_size: claimed as u32,
+            Ok(umb_topology_stats {
+                struct_size: 0,
                 reserved: 0,
                 vertex_count: found.vertex_count as u64,
                 face_count: found.face_count as u64,
@@ -240,11 +236,8 @@ pub unsafe extern "C" fn umb_topology_get_stats(
                 euler_characteristic: found.euler_characteristic,
                 max_valence: found.max_valence as u64,
                 bytes: found.bytes as u64,
-            });
-            // What a newer caller knows beyond this is nothing here.
-            let known = size_of::<umb_topology_stats>();
-            stats.cast::<u8>().add(known).write_bytes(0, claimed.saturating_sub(known));
-            Ok(())
+            })
+            })
         })
     }
 }

@@ -145,13 +145,15 @@ macro_rules! versioned {
 // The sizes of the first versions, which never change, with pointers of 64 and of 32 bits.
 versioned! {
     umb_topology_options: 8, 8;
-    umb_normal_options: 56, 40;
+    umb_topology_stats: 152, 152;
+    umb_adaptive_model: 88, 88;
+    umb_normal_options: 64, 44;
     umb_face_options: 48, 32;
     umb_normal_outputs: 72, 48;
     umb_face_outputs: 72, 48;
-    umb_curvature_options: 112, 84;
-    umb_curvature_outputs: 384, 256;
-    umb_section_options: 128, 88;
+    umb_curvature_options: 120, 88;
+    umb_curvature_outputs: 408, 272;
+    umb_section_options: 136, 92;
     umb_section_outputs: 72, 48;
     umb_polyline_options: 48, 32;
     umb_polyline_outputs: 120, 80;

@@ -201,7 +201,7 @@ pub(crate) fn over_region<E: MeasureEstimator>(
 ) -> Result<(), Error> {
     if let Region::Rings(1) = region {
         let estimator = OneRing::<E>(std::marker::PhantomData);
-        let quantity = Curvatures { outputs, flags: topology.flags(), normals, estimator };
+        let quantity = Curvatures { outputs, flags: topology.flags(), normals, estimator, more: 0 };
         return sweep(topology, points, &mut run, true, &quantity);
     }
     let mut cells: Vec<Cell> = zeroed(topology.vertex_count())?;

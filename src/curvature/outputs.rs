@@ -43,6 +43,9 @@ pub struct CurvatureOutputs<'a> {
     pub residual: Option<ScalarOutput<'a>>,
     /// The condition number of a fit.
     pub condition: Option<ScalarOutput<'a>>,
+    /// For adaptive jets, how many of the 15 coefficients of the polynomial the data decide, and not the prior; 0 where nothing
+    /// was fitted.
+    pub degrees_of_freedom: Option<ScalarOutput<'a>>,
     /// The unit normal to which all of this belongs: the one given or computed, or the fit's own.
     pub normal: Option<Output<'a>>,
     /// [`status`] bits.
@@ -71,11 +74,13 @@ pub enum CurvatureKind {
     Residual,
     /// `condition`.
     Condition,
+    /// `degrees_of_freedom`.
+    DegreesOfFreedom,
 }
 
 impl CurvatureKind {
     /// Every kind.
-    pub const ALL: [CurvatureKind; 9] = [
+    pub const ALL: [CurvatureKind; 10] = [
         CurvatureKind::Principal,
         CurvatureKind::Directions,
         CurvatureKind::Mean,
@@ -85,6 +90,7 @@ impl CurvatureKind {
         CurvatureKind::IntegratedGaussian,
         CurvatureKind::Residual,
         CurvatureKind::Condition,
+        CurvatureKind::DegreesOfFreedom,
     ];
 }
 
@@ -100,6 +106,7 @@ impl From<CurvatureKind> for Kinds {
             CurvatureKind::IntegratedGaussian => Kinds::INTEGRATED_GAUSSIAN,
             CurvatureKind::Residual => Kinds::RESIDUAL,
             CurvatureKind::Condition => Kinds::CONDITION,
+            CurvatureKind::DegreesOfFreedom => Kinds::FREEDOM,
         }
     }
 }
@@ -118,6 +125,7 @@ impl Kinds {
     pub const INTEGRATED_GAUSSIAN: Kinds = Kinds(64);
     pub const RESIDUAL: Kinds = Kinds(128);
     pub const CONDITION: Kinds = Kinds(256);
+    pub const FREEDOM: Kinds = Kinds(512);
 
     /// Those of either.
     pub const fn and(self, other: Kinds) -> Kinds {
@@ -156,6 +164,7 @@ impl CurvatureOutputs<'_> {
         check("outputs.curvedness", scalar(&self.curvedness), Kinds::PRINCIPAL)?;
         check("outputs.residual", scalar(&self.residual), Kinds::RESIDUAL)?;
         check("outputs.condition", scalar(&self.condition), Kinds::CONDITION)?;
+        check("outputs.degrees_of_freedom", scalar(&self.degrees_of_freedom), Kinds::FREEDOM)?;
         check("outputs.normal", vector(&self.normal), Kinds(0))?;
         check("outputs.status", self.status.as_ref().map(StatusOutput::len), Kinds(0))
     }
@@ -176,6 +185,8 @@ pub(crate) struct Local<V: Vector> {
     pub integrated_gaussian: V,
     pub residual: V,
     pub condition: V,
+    /// How many coefficients the data decide.
+    pub freedom: V,
     /// Whether there is a result at all.
     pub usable: V::Mask,
     /// Whether the input left something undetermined that had to be filled in.
@@ -203,6 +214,7 @@ impl<V: Vector> Local<V> {
             integrated_gaussian: zero,
             residual: zero,
             condition: zero,
+            freedom: zero,
             usable: V::zero().lt(V::one()),
             fallback: V::one().lt(V::zero()),
         }
@@ -252,6 +264,7 @@ impl<V: Vector> Local<V> {
             + self.integrated_gaussian.abs()
             + self.residual.abs()
             + self.condition.abs()
+            + self.freedom.abs()
             + size(self.direction1)
             + size(self.mean_normal)
             + size(self.normal);
@@ -270,7 +283,7 @@ impl<V: Vector> Local<V> {
 /// estimator and vector width.
 pub(crate) struct Rows([[f64; LANES]; ROWS]);
 
-const ROWS: usize = 18;
+const ROWS: usize = 19;
 
 /// The most lanes of `f64`.
 const LANES: usize = 8;
@@ -299,6 +312,7 @@ impl<V: Vector> Local<V> {
             mean.x,
             mean.y,
             mean.z,
+            self.freedom,
         ];
         let mut numbers = [[0.0; LANES]; ROWS];
         for (numbers, row) in numbers.iter_mut().zip(rows) {
@@ -369,6 +383,7 @@ impl CurvatureOutputs<'_> {
                 if block.residual_power > 0 { residual[lane] / scale } else { residual[lane] * scale }
             ];
             condition, |lane, _scale| [condition[lane]];
+            degrees_of_freedom, |lane, _scale| [rows.0[18][lane]];
             normal, |lane, _scale| vector(9, lane);
         }
         if let Some(output) = &self.status {
@@ -395,6 +410,7 @@ impl CurvatureOutputs<'_> {
             &self.curvedness,
             &self.residual,
             &self.condition,
+            &self.degrees_of_freedom,
         ];
         for output in scalars.into_iter().flatten() {
             output.write(vertex, [0.0]);

@@ -81,6 +81,7 @@ impl<E: PatchEstimator> PatchQuantity for PatchCurvatures<'_, E> {
         patch: &Patch<'_, V>,
         scale: V,
         widened: u32,
+        _attempt: usize,
         scratch: &mut [V],
     ) -> u32 {
         let found = self.estimator.lanes(patch, scratch);

@@ -41,6 +41,8 @@ pub(crate) struct Curvatures<'a, E> {
     /// Unit normals, zero where there is none.
     pub normals: &'a [[f64; 3]],
     pub estimator: E,
+    /// Status bits for every vertex.
+    pub more: u8,
 }
 
 /// A vector for each of a block's vertices; lanes beyond them repeat the first.
@@ -76,7 +78,7 @@ impl<E: RingEstimator> Curvatures<'_, E> {
             scales: scale.to_lanes().map(Into::into),
             residual_power: E::RESIDUAL_POWER,
             flags: self.flags,
-            more: 0,
+            more: self.more,
             fallbacks: found.fallbacks(),
         };
         self.outputs.write(&block, &found.rows());
@@ -128,7 +130,7 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         if found.trusted() & Self::normals_there(frame.normal) & 1 != 0 {
             self.write(&vertices, 1, &found, scale);
         } else {
-            self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | status::DEGENERATE);
+            self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | self.more | status::DEGENERATE);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Curvatures at the vertices of a mesh: checks, vertex normals, and the method asked for.
 
+use super::adaptive_jet::adaptive_curvatures;
 use super::angle_defect::AngleDefect;
 use super::corrected_measure::CorrectedMeasure;
 use super::goldfeather::Goldfeather;
@@ -15,7 +16,7 @@ use super::taubin::Taubin;
 use super::watanabe::Watanabe;
 use super::{CurvatureOutputs, Method, Section};
 use crate::error::Error;
-use crate::fit::{JetFit, JetOptions, MOST_DEGREE};
+use crate::fit::{AdaptiveModel, JetFit, JetOptions, MOST_DEGREE};
 use crate::normals::{NormalOutputs, Weight, reference_normals, vertex_normals};
 use crate::parallel::Run;
 use crate::simd::Real;
@@ -47,6 +48,8 @@ pub struct CurvatureOptions<'a> {
     pub section: Section,
     /// The vertex normals.
     pub normals: VertexNormals<'a>,
+    /// What adaptive jets know of the mesh; learned from it if there is none. Other methods do not look at it.
+    pub model: Option<AdaptiveModel>,
     /// For jets, the degree, 2 to 4; 0 for 3.
     pub degree: u8,
     /// How many rings around a vertex count; 0 for what the method does by itself. Methods of one ring take 0 or 1.
@@ -77,6 +80,9 @@ pub fn curvatures(
     }
     check_count(topology, points)?;
     check_list(topology, run.vertices)?;
+    if options.method == Method::AdaptiveJet {
+        return adaptive_curvatures(topology, points, options, run, outputs);
+    }
     // The vertices whose cells are added up; None for all, or where there are no cells.
     let cells = match (run.vertices, options.method) {
         (Some(vertices), Method::NormalCycle | Method::CorrectedMeasure) => {
@@ -124,7 +130,7 @@ fn by_method(
     let section = options.section;
     macro_rules! ring {
         ($estimator:expr) => {
-            sweep(topology, points, &mut run, true, &Curvatures { outputs, flags, normals, estimator: $estimator })
+            sweep(topology, points, &mut run, true, &Curvatures { outputs, flags, normals, estimator: $estimator, more: 0 })
         };
     }
     macro_rules! patch {
@@ -137,6 +143,8 @@ fn by_method(
     let condition = outputs.condition.is_some();
     let rings = options.rings.max(1);
     match options.method {
+        // Has returned above.
+        Method::AdaptiveJet => unreachable!("adaptive jets have a driver of their own"),
         Method::Jet => patch!(JetFit::new(jet_options(options)?)?),
         Method::Quadric => patch!(Quadric { rings, condition }),
         Method::Goldfeather => patch!(Goldfeather { rings, condition }),
@@ -163,7 +171,7 @@ fn jet_options(options: &CurvatureOptions<'_>) -> Result<JetOptions, Error> {
 
 /// The region that the options ask for, or why they cannot.
 fn region(options: &CurvatureOptions<'_>) -> Result<Region, Error> {
-    let fit = matches!(options.method, Method::Jet | Method::Quadric | Method::Goldfeather);
+    let fit = matches!(options.method, Method::AdaptiveJet | Method::Jet | Method::Quadric | Method::Goldfeather);
     if options.degree != 0 && options.method != Method::Jet {
         return Err(Error::NotApplicable { what: "options.degree" });
     }

@@ -3,16 +3,8 @@
 //! Reference: Cazals & Pouget 2005, "Estimating differential quantities using polynomial fitting of osculating jets". The
 //! points of the neighbourhood and the vertex itself, all with weight 1, are written as heights `z(x, y)` over the plane of
 //! their principal axes ([`Axes::principal`]), and a polynomial of degree `d` with all its `(d + 1)(d + 2)/2` coefficients is
-//! fitted by least squares. Normal and shape operator are those of the fitted surface at `x = y = 0`, from its full first and
-//! second fundamental forms, so the plane need not be tangent:
-//!
-//! ```text
-//! g = (p, q) = ∇z   w = √(1 + p² + q²)   N = (−p, −q, 1)/w
-//! I = [1 + p², pq; pq, 1 + q²]   II = H/w   with H the Hessian of z
-//! e₁ = Xᵤ/√E   e₂ = (E Xᵥ − F Xᵤ)/(√E w)   S = −[II(e₁,e₁), II(e₁,e₂); II(e₁,e₂), II(e₂,e₂)]
-//! ```
-//!
-//! The sign is such that a sphere with outward normals has positive curvatures. Degree 1 has a normal and no curvature.
+//! fitted by least squares. Normal and shape operator are those of the fitted surface at `x = y = 0` ([`Surface`]), so the plane
+//! need not be tangent. Degree 1 has a normal and no curvature.
 //! The normal's error is of order `d` in the size of the neighbourhood, the curvatures' of order `d − 1` (their Theorem 1).
 //!
 //! Input: neighbourhoods of any kind of mesh; how the points hang together does not matter.
@@ -25,6 +17,7 @@
 use super::JetFit;
 use super::axes::Axes;
 use super::least_squares::{condition, solve};
+use super::surface::Surface;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::Patch;
 use crate::topology::status;
@@ -175,34 +168,16 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(patch: &Patch<'_, V>, axes: Axes
     let residual = (solution.residual_squared / (patch.count + V::one())).sqrt();
     let condition = condition(columns, rows, &solution);
 
-    let (p, q) = (u[1], u[2]);
-    let e = V::one() + p * p;
-    let inverse_w = V::one() / (e + q * q).sqrt();
-    let inverse_root_e = V::one() / e.sqrt();
-    let normal = axes.vector(-(p * inverse_w), -(q * inverse_w), inverse_w);
-    // Unit to the last place, and not only to that of the axes.
-    let normal = normal * (V::one() / normal.squared().sqrt());
-    let x = axes.vector(inverse_root_e, V::zero(), p * inverse_root_e);
-    let mut shape = [V::zero(); 3];
-    if K > 3 {
-        // e₁ = α Xᵤ and e₂ = β Xᵤ + γ Xᵥ
-        let (alpha, gamma) = (inverse_root_e, e * inverse_root_e * inverse_w);
-        let beta = -(p * q * inverse_root_e * inverse_w);
-        let two = V::constant(2.0);
-        let (xx, xy, yy) = (-(two * u[3 % K] * inverse_w), -(u[4 % K] * inverse_w), -(two * u[5 % K] * inverse_w));
-        shape = [
-            alpha * alpha * xx,
-            alpha * (beta * xx + gamma * xy),
-            beta * beta * xx + two * beta * gamma * xy + gamma * gamma * yy,
-        ];
-    }
+    let two = V::constant(2.0);
+    let second = if K > 3 { [two * u[3 % K], u[4 % K], two * u[5 % K]] } else { [V::zero(); 3] };
+    let Surface { normal, x, y, shape } = Surface::of_derivatives(&axes, [u[1], u[2]], second);
     // A vertex without a normal has nothing to tell the sides of the surface by.
     let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
     // As many points as coefficients would be met exactly, noise and all.
     let enough = V::constant((K - 1) as f64).lt(patch.count);
     let determined = solution.trusted.and(enough).and(condition.lt(V::constant(ILL_CONDITIONED)));
     let trusted = determined.and(agrees).and(axes.distinct);
-    Jet { normal, x, y: normal.cross(x), shape, residual, condition, trusted, determined }
+    Jet { normal, x, y, shape, residual, condition, trusted, determined }
 }
 
 #[cfg(test)]

@@ -1,10 +1,18 @@
 //! Surfaces fitted to neighbourhoods: osculating jets, and the least squares under them.
 
+mod adaptive_jet;
+mod adaptive_model;
 mod axes;
+mod cholesky;
 mod jet;
+mod learning;
 mod least_squares;
+mod surface;
 
+pub use adaptive_model::{AdaptiveModel, Coordinates};
+pub(crate) use adaptive_jet::{AdaptiveFit, AdaptiveJet};
 pub(crate) use jet::Jet;
+pub(crate) use learning::{Surroundings, learn};
 pub(crate) use least_squares::{condition, solve};
 
 use crate::error::Error;

@@ -66,6 +66,7 @@ impl PatchQuantity for JetNormals<'_> {
         patch: &Patch<'_, V>,
         _scale: V,
         widened: u32,
+        _attempt: usize,
         scratch: &mut [V],
     ) -> u32 {
         let jet = self.fit.lanes(patch, scratch);

@@ -4,6 +4,7 @@
 //! these that has a direction, and says so in its status: Max, area, any one face. If none has, its normal is zero.
 
 use super::Weight;
+use super::adaptive_jet::adaptive_normals;
 use super::conformal::Conformal;
 use super::jet::jet_normals;
 use super::sum::{Estimator, Sum};
@@ -95,6 +96,7 @@ pub fn vertex_normals(
         Weight::Sine => with!(Sine),
         Weight::AngleEdges => with!(AngleEdges),
         Weight::Jet(options) => jet_normals(topology, points, options, run, outputs),
+        Weight::AdaptiveJet(options) => adaptive_normals(topology, points, options, run, outputs),
     }
 }
 
@@ -200,10 +202,10 @@ fn lane_bits(lanes: usize) -> u32 {
 }
 
 /// A unit normal, the sum it came from in the mesh's units, and status bits.
-type Found = ([f64; 3], [f64; 3], u8);
+pub(super) type Found = ([f64; 3], [f64; 3], u8);
 
 /// The estimator's normal, or that of the first fallback that has one.
-fn with_fallback<E: Estimator, F: RingFaces<f64>>(
+pub(super) fn with_fallback<E: Estimator, F: RingFaces<f64>>(
     fans: &VertexFans<'_, F>,
     scale: f64,
     scratch: &mut Scratch<'_, f64>,

@@ -20,7 +20,7 @@ mod ring;
 mod rows;
 
 pub(crate) use frames::{CANCELLED, area_vector};
-pub(crate) use patch::{MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
+pub(crate) use patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};

@@ -32,10 +32,16 @@ pub(crate) const MOST_RINGS: usize = MAX_RINGS - MOST_EXTRA_RINGS;
 /// The most lanes of `f64`.
 const DOUBLE_LANES: usize = 8;
 
+/// How many neighbours a vertex has within 1, 2 and 3 rings, and in all; those not counted that the estimator left out.
+pub(crate) type Counts = [u32; 4];
+
 /// An estimator on neighbourhoods, and where its results go.
 pub(crate) trait PatchQuantity: Sync {
     /// Whether it asks for [`Patch::neighbour_normal`].
     const NEIGHBOUR_NORMALS: bool = false;
+
+    /// How often lanes are tried before a vertex goes on alone.
+    const ATTEMPTS: usize = 1;
 
     /// How many rings it wants, at most [`MOST_RINGS`].
     fn rings(&self) -> usize;
@@ -49,17 +55,31 @@ pub(crate) trait PatchQuantity: Sync {
     /// Normals by vertex; of the vertices that are computed, and of their neighbours if it asks for those.
     fn normals(&self) -> &[[f64; 3]];
 
+    /// A number by vertex, for [`Patch::neighbour_value`], if it asks for that.
+    fn values(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// Fills `chosen` with the neighbours that count, ring after ring.
+    #[inline(always)]
+    fn choose(&self, _vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        let vertices = found.vertices();
+        chosen[..vertices.len()].copy_from_slice(vertices);
+        found.counts_within()
+    }
+
     /// Computes and writes the vertices of a block; answers with a bit for each lane that it did not write, because its
     /// result cannot be trusted.
     ///
     /// `scale` is how many of the patch's units a unit of the mesh is, and `widened` has a bit for each lane with more rings
-    /// than were asked for. Lanes beyond `vertices` hold no points.
+    /// than were asked for. Lanes beyond `vertices` hold no points. `attempt` counts from 0 to [`PatchQuantity::ATTEMPTS`].
     fn block<V: Vector<Scalar = f64>>(
         &self,
         vertices: &[u32],
         patch: &Patch<'_, V>,
         scale: V,
         widened: u32,
+        attempt: usize,
         scratch: &mut [V],
     ) -> u32;
 
@@ -85,12 +105,18 @@ pub(crate) struct Patch<'a, V> {
     points: &'a [V],
     /// Likewise, if they were asked for.
     normals: &'a [V],
+    /// A number a point, likewise.
+    values: &'a [V],
     /// The normal at the vertex itself; zero where there is none.
     pub normal: Vector3<V>,
     /// How many points each lane has.
     pub count: V,
     /// Every lane has at least so many points.
     pub full: usize,
+    /// How many of them are within one ring, two and three.
+    within: [V; 3],
+    /// The most that a lane has there.
+    most_within: [usize; 3],
     /// How many points there are up to each ring, of a vertex alone.
     rings: &'a [usize],
 }
@@ -100,7 +126,17 @@ impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
     #[cfg(test)]
     pub(crate) fn of_points(points: &'a [V], normal: Vector3<V>) -> Self {
         let count = points.len() / 3;
-        Patch { points, normals: &[], normal, count: V::constant(count as f64), full: count, rings: &[] }
+        Patch {
+            points,
+            normals: &[],
+            values: &[],
+            normal,
+            count: V::constant(count as f64),
+            full: count,
+            within: [V::constant(count as f64); 3],
+            most_within: [count; 3],
+            rings: &[],
+        }
     }
 
     /// The largest number of points of a lane; the vertex itself, which is at the origin, is not among them.
@@ -126,6 +162,30 @@ impl<'a, V: Vector<Scalar = f64>> Patch<'a, V> {
         let count = self.rings.iter().copied().find(|&count| count >= points).unwrap_or(self.len());
         let normals = if self.normals.is_empty() { self.normals } else { &self.normals[..3 * count] };
         Patch { points: &self.points[..3 * count], normals, count: V::constant(count as f64), full: count, ..*self }
+    }
+
+    /// The number at a point, if there are any; zero in lanes that have fewer points.
+    #[inline(always)]
+    pub fn neighbour_value(&self, index: usize) -> Option<V> {
+        self.values.get(index).copied()
+    }
+
+    /// The most points that a lane has within so many rings, 1 to 3.
+    #[inline(always)]
+    pub fn len_within(&self, rings: usize) -> usize {
+        self.most_within[rings - 1]
+    }
+
+    /// How many points each lane has within so many rings, 1 to 3.
+    #[inline(always)]
+    pub fn count_within(&self, rings: usize) -> V {
+        self.within[rings - 1]
+    }
+
+    /// 1 in the lanes that have the point within so many rings, 1 to 3, and 0 in the others.
+    #[inline(always)]
+    pub fn weight_within(&self, rings: usize, index: usize) -> V {
+        V::select(V::constant(index as f64).lt(self.within[rings - 1]), V::one(), V::zero())
     }
 
     /// 1 in the lanes that have the point, 0 in the others.
@@ -221,7 +281,7 @@ struct Space {
 
 impl Space {
     fn new<Q: PatchQuantity>(quantity: &Q) -> Result<Self, Error> {
-        let coordinates = if Q::NEIGHBOUR_NORMALS { 6 } else { 3 };
+        let coordinates = if Q::NEIGHBOUR_NORMALS { 6 } else { 3 } + quantity.values().is_some() as usize;
         // One row more, since the first may not start where a vector can.
         let rows = coordinates * MAX_NEIGHBOURS + quantity.scratch(MAX_NEIGHBOURS) + 1;
         Ok(Space { numbers: zeroed(rows * DOUBLE_LANES)?, neighbours: zeroed(GROUP * MAX_NEIGHBOURS)? })
@@ -247,8 +307,14 @@ struct Worker<'a, 'c, 'p, 's, Q, S> {
 struct Member {
     vertex: u32,
     start: u32,
-    count: u32,
+    counts: Counts,
     widened: bool,
+}
+
+impl Member {
+    fn count(&self) -> usize {
+        self.counts[3] as usize
+    }
 }
 
 impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
@@ -256,7 +322,7 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     fn run<W: Width>(self) {
         let Worker { sweep, claims, mut space } = self;
         let mut neighbourhood = Neighbourhood::new();
-        let mut group = [Member { vertex: 0, start: 0, count: 0, widened: false }; GROUP];
+        let mut group = [Member { vertex: 0, start: 0, counts: [0; 4], widened: false }; GROUP];
         while let Some(chunk) = claims.next() {
             let first = chunk * GROUP;
             let length =
@@ -270,21 +336,29 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     continue;
                 }
                 let widened = sweep.gather(vertex, &mut neighbourhood);
-                let found = neighbourhood.vertices();
-                space.neighbours[end..end + found.len()].copy_from_slice(found);
-                group[count] = Member { vertex, start: end as u32, count: found.len() as u32, widened };
-                (count, end) = (count + 1, end + found.len());
+                let counts = sweep.quantity.choose(vertex, &neighbourhood, &mut space.neighbours[end..]);
+                group[count] = Member { vertex, start: end as u32, counts, widened };
+                (count, end) = (count + 1, end + group[count].count());
             }
-            let sorted = by_count(&group[..count]);
-            for block in sorted[..count].chunks(W::Double::LANES) {
-                let bits = sweep.block::<W, W::Double>(&group, block, &mut space);
-                if bits != 0 {
+            let mut sorted = by_count(&group[..count]);
+            for attempt in 0..Q::ATTEMPTS {
+                // Those that are left over move to the front, and stay sorted.
+                let mut left = 0;
+                for first in (0..count).step_by(W::Double::LANES) {
+                    let block: [u8; MAX_LANES] = std::array::from_fn(|lane| *sorted.get(first + lane).unwrap_or(&0));
+                    let block = &block[..W::Double::LANES.min(count - first)];
+                    let bits = sweep.block::<W, W::Double>(&group, block, attempt, &mut space);
                     for (lane, &member) in block.iter().enumerate() {
                         if bits & 1 << lane != 0 {
-                            sweep.alone(group[member as usize].vertex, &mut neighbourhood, &mut space.numbers);
+                            sorted[left] = member;
+                            left += 1;
                         }
                     }
                 }
+                count = left;
+            }
+            for &member in &sorted[..count] {
+                sweep.alone(group[member as usize].vertex, &mut neighbourhood, &mut space);
             }
         }
     }
@@ -297,6 +371,7 @@ struct PatchBlock<'a, 'p, Q, V> {
     patch: &'a Patch<'p, V>,
     scale: V,
     widened: u32,
+    attempt: usize,
     scratch: &'a mut [V],
     untrusted: &'a mut u32,
 }
@@ -304,7 +379,8 @@ struct PatchBlock<'a, 'p, Q, V> {
 impl<Q: PatchQuantity, V: Vector<Scalar = f64>> Task for PatchBlock<'_, '_, Q, V> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        *self.untrusted = self.quantity.block(self.vertices, self.patch, self.scale, self.widened, self.scratch);
+        let PatchBlock { quantity, vertices, patch, scale, widened, attempt, scratch, untrusted } = self;
+        *untrusted = quantity.block(vertices, patch, scale, widened, attempt, scratch);
     }
 }
 
@@ -313,7 +389,7 @@ impl<Q: PatchQuantity, V: Vector<Scalar = f64>> Task for PatchBlock<'_, '_, Q, V
 fn by_count(group: &[Member]) -> [u8; GROUP] {
     let mut starts = [0u16; MAX_NEIGHBOURS + 1];
     for member in group {
-        starts[member.count as usize] += 1;
+        starts[member.count()] += 1;
     }
     let mut place = 0;
     for start in &mut starts {
@@ -321,7 +397,7 @@ fn by_count(group: &[Member]) -> [u8; GROUP] {
     }
     let mut sorted = [0u8; GROUP];
     for (index, member) in group.iter().enumerate() {
-        let start = &mut starts[member.count as usize];
+        let start = &mut starts[member.count()];
         sorted[*start as usize] = index as u8;
         *start += 1;
     }
@@ -362,26 +438,31 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         &self,
         group: &[Member; GROUP],
         block: &[u8],
+        attempt: usize,
         space: &mut Space,
     ) -> u32 {
         let member = |lane: usize| &group[block[lane] as usize];
         // Sorted by count.
-        let (full, length) = (member(0).count as usize, member(block.len() - 1).count as usize);
+        let (full, length) = (member(0).count(), member(block.len() - 1).count());
+        let all_values = self.quantity.values();
         let (points, rest) = as_lanes::<V>(&mut space.numbers).split_at_mut(3 * length);
-        let (normals, scratch) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * length } else { 0 });
+        let (normals, rest) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * length } else { 0 });
+        let (values, scratch) = rest.split_at_mut(if all_values.is_some() { length } else { 0 });
         let mut vertices = [0u32; MAX_LANES];
-        let mut counts = [0.0; MAX_LANES];
+        let mut counts = [[0.0; MAX_LANES]; 4];
         let mut own = [[0.0; MAX_LANES]; 3];
         let mut widened = 0;
         for lane in 0..V::LANES {
             let (vertex, found): (u32, &[u32]) = if lane < block.len() {
-                let &Member { vertex, start, count, widened: wide } = member(lane);
+                let &Member { vertex, start, counts: found, widened: wide } = member(lane);
                 widened |= (wide as u32) << lane;
-                counts[lane] = count as f64;
+                for (row, count) in counts.iter_mut().zip(found) {
+                    row[lane] = count as f64;
+                }
                 for (axis, x) in self.quantity.normals()[vertex as usize].into_iter().enumerate() {
                     own[axis][lane] = x;
                 }
-                (vertex, &space.neighbours[start as usize..][..count as usize])
+                (vertex, &space.neighbours[start as usize..][..found[3] as usize])
             } else {
                 (member(0).vertex, &[])
             };
@@ -390,24 +471,38 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
             if Q::NEIGHBOUR_NORMALS {
                 self.load_normals::<V>(found, lane, as_scalars(normals));
             }
+            if let Some(all) = all_values {
+                load_values::<V>(all, found, lane, as_scalars(values));
+            }
         }
         let scale = fit_to_unit(points);
         let normal = Vector3::from_lanes(&own);
-        let patch = Patch { points, normals, normal, count: V::from_lanes(&counts), full, rings: &[] };
+        let [within @ .., count] = counts.map(|row| V::from_lanes(&row));
+        let most_within = [0, 1, 2].map(|ring| counts[ring].iter().fold(0.0f64, |most, &x| most.max(x)) as usize);
+        let patch = Patch { points, normals, values, normal, count, full, within, most_within, rings: &[] };
         // In a function of its own, which positions of either precision share.
         let (quantity, vertices, mut untrusted) = (self.quantity, &vertices[..block.len()], 0);
-        W::call(PatchBlock { quantity, vertices, patch: &patch, scale, widened, scratch, untrusted: &mut untrusted });
+        W::call(PatchBlock {
+            quantity,
+            vertices,
+            patch: &patch,
+            scale,
+            widened,
+            attempt,
+            scratch,
+            untrusted: &mut untrusted,
+        });
         untrusted
     }
 
     /// The vertex-by-vertex path.
     #[inline(never)]
-    fn alone(&self, vertex: u32, neighbourhood: &mut Neighbourhood, numbers: &mut [f64]) {
+    fn alone(&self, vertex: u32, neighbourhood: &mut Neighbourhood, space: &mut Space) {
         let mut widened = self.gather(vertex, neighbourhood);
         loop {
             let last =
                 neighbourhood.is_complete() || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
-            if self.alone_in(vertex, neighbourhood, widened, last, numbers) || last {
+            if self.alone_in(vertex, neighbourhood, widened, last, &mut space.numbers) || last {
                 return;
             }
             // If nothing was added, the neighbourhood is complete and the next attempt the last.
@@ -423,9 +518,13 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         last: bool,
         numbers: &mut [f64],
     ) -> bool {
-        let found = neighbourhood.vertices();
+        let mut chosen = [0; MAX_NEIGHBOURS];
+        let counts = self.quantity.choose(vertex, neighbourhood, &mut chosen);
+        let found = &chosen[..counts[3] as usize];
+        let all_values = self.quantity.values();
         let (points, rest) = numbers.split_at_mut(3 * found.len());
-        let (normals, scratch) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * found.len() } else { 0 });
+        let (normals, rest) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * found.len() } else { 0 });
+        let (values, scratch) = rest.split_at_mut(if all_values.is_some() { found.len() } else { 0 });
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact for them.
         let mut factor = 1.0;
         self.load_points::<f64>(vertex, found, factor, 0, points);
@@ -436,13 +535,19 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         if Q::NEIGHBOUR_NORMALS {
             self.load_normals::<f64>(found, 0, normals);
         }
+        if let Some(all) = all_values {
+            load_values::<f64>(all, found, 0, values);
+        }
         let scale = fit_to_unit(points);
         let [x, y, z] = self.quantity.normals()[vertex as usize];
         let count = found.len();
         let mut rings = [count; MAX_RINGS + 1];
         rings.iter_mut().zip(neighbourhood.counts()).for_each(|(ring, count)| *ring = count);
         let normal = Vector3 { x, y, z };
-        let patch = Patch { points, normals, normal, count: count as f64, full: count, rings: &rings };
+        let most_within = [0, 1, 2].map(|ring| counts[ring] as usize);
+        let within = most_within.map(|count| count as f64);
+        let (full, count) = (count, count as f64);
+        let patch = Patch { points, normals, values, normal, count, full, within, most_within, rings: &rings };
         self.quantity.alone(vertex as usize, &patch, scale * factor, widened, last, scratch)
     }
 
@@ -475,6 +580,16 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         }
         clear_lane::<V>(normals, lane, found.len());
     }
+}
+
+/// Fills a lane of `values` with those of `found`, and with zeros after them.
+#[inline(always)]
+fn load_values<V: Vector>(all: &[f64], found: &[u32], lane: usize, values: &mut [f64]) {
+    let mut rows = values.chunks_exact_mut(V::LANES);
+    for (row, &neighbour) in rows.by_ref().zip(found) {
+        row[lane] = all[neighbour as usize];
+    }
+    rows.for_each(|row| row[lane] = 0.0);
 }
 
 /// Sets a lane's points from `first` on to zero.

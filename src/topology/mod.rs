@@ -36,6 +36,9 @@ pub mod status {
     pub const DEGENERATE: u8 = 32;
     /// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
     pub const WIDENED: u8 = 64;
+    /// The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its
+    /// curvatures are those of sections.
+    pub const CREASE: u8 = 128;
 }
 
 /// The one-rings of a mesh.

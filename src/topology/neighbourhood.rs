@@ -122,6 +122,13 @@ impl Neighbourhood {
         self.ends[..=self.rings].iter().map(|end| end - 1)
     }
 
+    /// How many vertices there are within 1, 2 and 3 rings, and in all.
+    #[inline(always)]
+    pub(crate) fn counts_within(&self) -> [u32; 4] {
+        let within = |rings: usize| self.ends[rings.min(self.rings)] as u32 - 1;
+        [within(1), within(2), within(3), self.count as u32 - 1]
+    }
+
     /// The vertices of a ring, counted from 1.
     pub(crate) fn ring(&self, ring: usize) -> &[u32] {
         &self.members[self.ends[ring - 1]..self.ends[ring]]

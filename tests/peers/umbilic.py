@@ -16,21 +16,22 @@ import numpy
 WEIGHTS = {
     name: value
     for value, name in enumerate(
-        "conformal uniform angle area max centroid-area centroid inverse-root-edges sine angle-edges jet".split()
+        "conformal uniform angle area max centroid-area centroid inverse-root-edges sine angle-edges jet "
+        "adaptive-jet".split()
     )
 }  # UMB_WEIGHT_
 METHODS = {
     name: value
     for value, name in enumerate(
-        "jet quadric goldfeather least-squares taubin watanabe meyer angle-defect rusinkiewicz normal-cycle "
-        "corrected-measure".split()
+        "adaptive-jet jet quadric goldfeather tilted-sections least-squares taubin watanabe meyer angle-defect "
+        "rusinkiewicz normal-cycle corrected-measure".split()
     )
 }  # UMB_CURVATURE_
 SECTIONS = {
     name: value for value, name in enumerate("symmetric-parabola circle parabola length-parabola".split())
 }  # UMB_SECTION_
 SCALARS = {"f32": (numpy.float32, 0), "f64": (numpy.float64, 1)}  # with UMB_SCALAR_
-BOUNDARY, NON_MANIFOLD, WINDING, ISOLATED, FALLBACK, DEGENERATE, WIDENED = (1 << bit for bit in range(7))  # UMB_VERTEX_
+BOUNDARY, NON_MANIFOLD, WINDING, ISOLATED, FALLBACK, DEGENERATE, WIDENED, CREASE = (1 << bit for bit in range(8))  # UMB_VERTEX_
 ONE_SIDED, NO_SECTION = 1, 2  # UMB_SECTION_STATUS_
 VECTORS = ("direction1", "direction2", "mean_normal", "normal")  # the outputs of curvatures that are no single scalars
 
@@ -47,19 +48,20 @@ Run = struct("Run", threads=u32, simd=u32, vertices=pointer, vertex_count=size, 
 Output = struct("Output", data=pointer, stride=size, scalar=u32, reserved=u32)
 StatusOutput = struct("StatusOutput", data=pointer, stride=size)
 Error = struct("Error", struct_size=u32, status=ctypes.c_int32, element=ctypes.c_uint64, message=ctypes.c_char * 240)
-NormalOptions = struct("NormalOptions", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32)
+NormalOptions = struct("NormalOptions", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32, model=pointer)
 NormalOutputs = struct("NormalOutputs", struct_size=u32, reserved=u32, normal=Output, sum=Output, status=StatusOutput)
 CurvatureOptions = struct(
     "CurvatureOptions",
     **dict.fromkeys(("struct_size", "method", "section", "weight"), u32),
     radius=double,
     **dict.fromkeys(("degree", "rings", "normal_degree", "normal_rings"), u32),
+    model=pointer,
     normals=Points,
     run=Run,
 )
 CURVATURES = (
     "k1 k2 direction1 direction2 mean gaussian mean_normal area integrated_mean integrated_gaussian shape_index "
-    "curvedness residual condition normal".split()
+    "curvedness residual condition degrees_of_freedom normal".split()
 )
 CurvatureOutputs = struct(
     "CurvatureOutputs", struct_size=u32, reserved=u32, **dict.fromkeys(CURVATURES, Output), status=StatusOutput
@@ -71,6 +73,7 @@ SectionOptions = struct(
     directions=Points,
     normal_degree=u32,
     normal_rings=u32,
+    model=pointer,
     run=Run,
 )
 SectionOutputs = struct(

@@ -52,6 +52,7 @@ impl CurvatureEstimator {
             return Err(self.refusal("--normal"));
         }
         Ok(CurvatureOptions {
+            model: None,
             method,
             section: self.section.unwrap_or_default(),
             normals: VertexNormals::Computed(self.normal.unwrap_or_default()),

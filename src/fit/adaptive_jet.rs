@@ -1,0 +1,713 @@
+//! Adaptive jets: a height polynomial of degree 4 whose weights and prior follow from what the mesh itself shows of its noise
+//! and smoothness.
+//!
+//! **What.** The points of a neighbourhood (four rings by default), and the vertex itself, are heights `w(u, v)` over the
+//! tangent plane. The 15 coefficients `c` of the polynomial are those of highest posterior probability:
+//!
+//! ```text
+//! Σⱼ (wⱼ − Bⱼ c)² / (σⱼ² + τ₅² ρⱼ¹⁰)  +  Σ_{d=2..4} Σᵢ c_{d,i}² / (binom(d, i) τ_d²)  →  min
+//! ```
+//!
+//! with lengths in units of the vertex's mean edge length, `ρ` the distance from the vertex, `σ` the noise and `τ_d` the sizes of
+//! [`AdaptiveModel`]. The binomials make the prior the same in all directions of the tangent plane. What is small decides what
+//! counts: without noise only near points do (`τ₅² ρ¹⁰` is large elsewhere) and the fit is a plain jet; with much noise all
+//! points do, and the prior holds the high degrees down. At a boundary and where points are few the prior decides what they leave
+//! open, so there is no special case.
+//!
+//! **Coordinates.** In [`Coordinates::Circle`], monomials of degree 2 and more are those of `(u, v) ρ/√(u² + v²)`, with `ρ` the
+//! distance in space: a sphere is then exactly quadratic, which is the idea of the circles of the paper's sections.
+//!
+//! **Frame.** The tangent plane is that of a ridge quadric over two rings around the one-ring normal (Max), unless that turns the
+//! normal by more than 37°. Normal and shape operator are those of the fitted surface ([`Surface`]).
+//!
+//! **Outliers.** Where a point is off by more than `√20` of its standard deviation, the fit is repeated with the weights of a
+//! Student distribution; and if a fifth of the points stay off, the neighbourhood is noisier than the mesh, and what the best of
+//! three plain jets leaves of it is added to its noise.
+//!
+//! Input: neighbourhoods of any kind of mesh. Cost: 78 products and sums a point for the moments from which the 15 × 15 normal
+//! equations follow, and their Cholesky factorisation; three passes over the points.
+//! Reference: MacKay 1992, "Bayesian interpolation", for the principle; the estimator is this library's own.
+
+use super::adaptive_model::{AdaptiveModel, Coordinates};
+use super::axes::Axes;
+use super::cholesky::factor;
+use super::surface::Surface;
+use crate::simd::{MAX_LANES, Mask, Vector, Vector3};
+use crate::sweep::Patch;
+
+/// The coefficients of a polynomial of degree 4.
+const TERMS: usize = 15;
+
+/// The degree of each coefficient. Those of degree `d` belong to `u^d`, `u^(d−1) v` … `v^d`.
+const DEGREES: [usize; TERMS] = [0, 1, 1, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4];
+
+/// The binomial coefficients that go with them.
+const BINOMIALS: [f64; TERMS] = [1.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 3.0, 3.0, 1.0, 1.0, 4.0, 6.0, 4.0, 1.0];
+
+/// `1/variance` of the prior of the slopes.
+const SLOPE_PRIOR: f64 = 1e-6;
+
+/// Where points are this few, with the vertex, their slopes are expected near those of the one-ring normal.
+const FEW: f64 = 8.0;
+
+/// `1/variance` of the slopes there.
+const FEW_SLOPE_PRIOR: f64 = 100.0;
+
+/// What is added to the diagonal of the quadric that finds the frame, relative to it.
+const FRAME_RIDGE: f64 = 1e-6;
+
+/// The cosine of the largest turn of the frame.
+const MOST_TURN: f64 = 0.8;
+
+/// Below this squared length, in edge lengths, the projection of a point has no direction.
+const NO_DIRECTION: f64 = 1e-20;
+
+/// The square of how many standard deviations a point may be off before the fit is repeated.
+const OFF: f64 = 20.0;
+
+/// The square of the standard deviations at which weights have fallen to half.
+const HALF_WEIGHT: f64 = 9.0;
+
+/// Repetitions with weights.
+const REPETITIONS: usize = 3;
+
+/// The part of points that stay off where the neighbourhood is noisier than the mesh.
+const NOISY_PART: f64 = 0.2;
+
+/// Points are added up so many at a time.
+const ROWS: usize = 4;
+
+/// Rows of numbers a point.
+const COLUMNS: usize = 5;
+
+/// Points as heights over a tangent plane, in units of the vertex's mean edge length; the vertex itself first. Lanes that have fewer
+/// points than others have zeros, and weight 0.
+pub(super) struct Heights<'s, V> {
+    pub u: &'s mut [V],
+    pub v: &'s mut [V],
+    pub w: &'s mut [V],
+    /// The variance of the noise.
+    pub noise: &'s mut [V],
+    /// 1 over the variance with which a point counts.
+    weight: &'s mut [V],
+}
+
+/// The rows for so many points and the vertex, rounded up.
+pub(super) fn rows(points: usize) -> usize {
+    (points + 1).next_multiple_of(ROWS)
+}
+
+/// Rows of scratch for so many points.
+pub(super) fn scratch(points: usize) -> usize {
+    COLUMNS * rows(points)
+}
+
+impl<'s, V: Vector<Scalar = f64>> Heights<'s, V> {
+    /// Over the first `COLUMNS * rows` numbers of `scratch`.
+    #[inline(always)]
+    pub fn new(scratch: &'s mut [V], rows: usize) -> Self {
+        let (u, rest) = scratch.split_at_mut(rows);
+        let (v, rest) = rest.split_at_mut(rows);
+        let (w, rest) = rest.split_at_mut(rows);
+        let (noise, rest) = rest.split_at_mut(rows);
+        Heights { u, v, w, noise, weight: &mut rest[..rows] }
+    }
+
+    /// How many rows there are.
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.u.len()
+    }
+}
+
+/// What a lane knows of its vertex and the mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<V> {
+    /// The squared sizes `τ_d²` of degrees 2 to 4 and of what lies beyond, for lengths in the vertex's own units.
+    pub sizes_squared: [V; 4],
+    /// The number of points, the vertex among them.
+    pub count: V,
+    /// The slopes of the one-ring normal in the frame.
+    pub slopes: [V; 2],
+    pub coordinates: Coordinates,
+}
+
+/// The most probable coefficients of a row of vertices.
+pub(super) struct Coefficients<V: Vector> {
+    pub c: [V; TERMS],
+    /// The diagonal of their covariance, if it was asked for.
+    pub variances: [V; TERMS],
+    /// `1/variance` of their prior.
+    prior: [V; TERMS],
+    /// `bᵀ c` and the reciprocals of the factor's pivots, of which the evidence is made.
+    explained: V,
+    inverse_pivots: [V; TERMS],
+    pub definite: V::Mask,
+}
+
+/// The frame of a row of vertices, and their points in it.
+pub(super) struct Frame<V: Vector> {
+    pub axes: Axes<V>,
+    /// The slopes of the one-ring normal.
+    pub slopes: [V; 2],
+}
+
+/// Puts a patch into its frame. `unit` is one over the vertex's mean edge length in the patch's units.
+#[inline(always)]
+pub(super) fn prepare<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V, heights: &mut Heights<'_, V>) -> Frame<V> {
+    let axes = frame(patch, unit);
+    for row in 0..heights.len() {
+        let point = if row == 0 || row > patch.len() {
+            Vector3::zero()
+        } else {
+            axes.components(patch.point(row - 1)) * unit
+        };
+        (heights.u[row], heights.v[row], heights.w[row]) = (point.x, point.y, point.z);
+    }
+    let normal = axes.components(patch.normal);
+    let inverse = V::one() / normal.z.max(V::constant(MOST_TURN * 0.5));
+    Frame { axes, slopes: [-(normal.x * inverse), -(normal.y * inverse)] }
+}
+
+/// The tangent plane: see the top of this file.
+#[inline(always)]
+fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
+    const QUADRIC: usize = 6;
+    let start = Axes::about(patch.normal);
+    let mut matrix = [[V::zero(); QUADRIC]; QUADRIC];
+    let mut right = [V::zero(); QUADRIC];
+    // The vertex itself.
+    matrix[0][0] = V::one();
+    for index in 0..patch.len_within(2) {
+        let Vector3 { x: u, y: v, z: w } = start.components(patch.point(index)) * unit;
+        let weight = patch.weight_within(2, index) / (V::one() + u * u + v * v);
+        let terms = [V::one(), u, v, u * u, u * v, v * v];
+        for row in 0..QUADRIC {
+            let weighted = terms[row] * weight;
+            for column in 0..=row {
+                matrix[row][column] = matrix[row][column] + weighted * terms[column];
+            }
+            right[row] = right[row] + weighted * w;
+        }
+    }
+    let tiny = V::constant(f64::MIN_POSITIVE);
+    for k in 0..QUADRIC {
+        matrix[k][k] = matrix[k][k] * V::constant(1.0 + FRAME_RIDGE) + tiny;
+    }
+    let factored = factor(&mut matrix);
+    let definite = factored.definite;
+    let [_, p, q, ..] = factored.solve(right);
+    let normal = start.vector(-p, -q, V::one());
+    let normal = normal * (V::one() / normal.squared().sqrt());
+    let turned = definite.and(V::constant(MOST_TURN).lt(normal.dot(patch.normal)));
+    Axes::about(Vector3 {
+        x: V::select(turned, normal.x, patch.normal.x),
+        y: V::select(turned, normal.y, patch.normal.y),
+        z: V::select(turned, normal.z, patch.normal.z),
+    })
+}
+
+/// `(u, v)` in the coordinates of degree 2 and more, the factor that leads back, and `ρ²`.
+#[inline(always)]
+fn coordinates<V: Vector<Scalar = f64>>(chosen: Coordinates, u: V, v: V, w: V) -> (V, V, V, V) {
+    let flat = u * u + v * v;
+    match chosen {
+        Coordinates::Height => (u, v, V::one(), flat),
+        Coordinates::Circle => {
+            let squared = flat + w * w;
+            let directed = V::constant(NO_DIRECTION).lt(flat);
+            let back = (V::select(directed, flat, V::one()) / V::select(directed, squared, V::one())).sqrt();
+            let factor = V::one() / back;
+            (u * factor, v * factor, back, squared)
+        }
+    }
+}
+
+/// Sets the weights of all points: one over the variance with which each counts.
+#[inline(always)]
+pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setting: &Setting<V>) {
+    for row in 0..heights.len() {
+        let variance = variance(heights, setting, row);
+        let there = V::constant(row as f64).lt(setting.count);
+        heights.weight[row] = V::select(there, V::one() / variance, V::zero());
+    }
+}
+
+/// `σ² + τ₅² ρ¹⁰`
+#[inline(always)]
+fn variance<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, setting: &Setting<V>, row: usize) -> V {
+    let (.., squared) = coordinates(setting.coordinates, heights.u[row], heights.v[row], heights.w[row]);
+    let fourth = squared * squared;
+    heights.noise[row] + setting.sizes_squared[3] * (fourth * fourth * squared)
+}
+
+/// Solves for the coefficients, with the weights that are set.
+#[inline(always)]
+pub(super) fn solve<V: Vector<Scalar = f64>>(
+    heights: &Heights<'_, V>,
+    setting: &Setting<V>,
+    with_variances: bool,
+) -> Coefficients<V> {
+    let Moments { plain, back, back_twice, right } = moments(heights, setting.coordinates);
+    // A product of two terms is a monomial of the summed degrees, with a factor `back` for each that is linear.
+    let mut matrix = [[V::zero(); TERMS]; TERMS];
+    for row in 0..TERMS {
+        for column in 0..=row {
+            let (d, e) = (DEGREES[row], DEGREES[column]);
+            let at = first_of(d + e) + (row - first_of(d)) + (column - first_of(e));
+            matrix[row][column] = match (d == 1, e == 1) {
+                (true, true) => back_twice[at - first_of(2)],
+                (true, false) | (false, true) => back[at],
+                (false, false) => plain[at],
+            };
+        }
+    }
+    let few = setting.count.lt(V::constant(FEW + 0.5));
+    let slope_prior = V::select(few, V::constant(FEW_SLOPE_PRIOR), V::constant(SLOPE_PRIOR));
+    let mut prior = [V::zero(); TERMS];
+    let mut right = right;
+    for term in 1..TERMS {
+        prior[term] = match DEGREES[term] {
+            1 => slope_prior,
+            degree => V::one() / (setting.sizes_squared[degree - 2] * V::constant(BINOMIALS[term])),
+        };
+        matrix[term][term] = matrix[term][term] + prior[term];
+    }
+    for axis in 0..2 {
+        let slope = V::select(few, setting.slopes[axis], V::zero());
+        right[1 + axis] = right[1 + axis] + prior[1 + axis] * slope;
+    }
+    let factored = factor(&mut matrix);
+    let c = factored.solve(right);
+    let mut explained = V::zero();
+    for term in 0..TERMS {
+        explained = explained + right[term] * c[term];
+    }
+    let variances = if with_variances { factored.inverse_diagonal() } else { [V::zero(); TERMS] };
+    let (inverse_pivots, definite) = (*factored.inverse_pivots(), factored.definite);
+    Coefficients { c, variances, prior, explained, inverse_pivots, definite }
+}
+
+/// Where the monomials of a degree start, if all are in a row.
+const fn first_of(degree: usize) -> usize {
+    degree * (degree + 1) / 2
+}
+
+/// Sums over the points of weight times monomials of `(u, v)` in the coordinates of degree 2 and more.
+struct Moments<V> {
+    /// Those up to degree 8 (but 1, which is not needed).
+    plain: [V; first_of(9)],
+    /// With a factor `back`, of degrees 1, 3, 4, 5.
+    back: [V; first_of(6)],
+    /// With its square, of degree 2.
+    back_twice: [V; 3],
+    /// Weight times height times each term.
+    right: [V; TERMS],
+}
+
+#[inline(always)]
+fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinates) -> Moments<V> {
+    let mut sums = Moments {
+        plain: [V::zero(); first_of(9)],
+        back: [V::zero(); first_of(6)],
+        back_twice: [V::zero(); 3],
+        right: [V::zero(); TERMS],
+    };
+    for first in (0..heights.len()).step_by(ROWS) {
+        let rows = first..first + ROWS;
+        let (mut u, mut v, mut plain, mut back, mut twice, mut right) =
+            ([V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS]);
+        let mut right_back = right;
+        for (row, index) in rows.enumerate() {
+            let (height, weight) = (heights.w[index], heights.weight[index]);
+            let leads_back;
+            (u[row], v[row], leads_back, _) = coordinates(chosen, heights.u[index], heights.v[index], height);
+            plain[row] = weight;
+            back[row] = weight * leads_back;
+            twice[row] = back[row] * leads_back;
+            right[row] = weight * height;
+            right_back[row] = back[row] * height;
+        }
+        add_series::<V, 9>(&mut sums.plain, &u, &v, plain, 0b10);
+        add_series::<V, 6>(&mut sums.back, &u, &v, back, 0b101);
+        let mut degree_2 = [V::zero(); first_of(3)];
+        degree_2[3..].copy_from_slice(&sums.back_twice);
+        add_series::<V, 3>(&mut degree_2, &u, &v, twice, 0b11);
+        sums.back_twice.copy_from_slice(&degree_2[3..]);
+        let mut linear = [sums.right[0], sums.right[1], sums.right[2]];
+        add_series::<V, 2>(&mut linear, &u, &v, right_back, 1);
+        let mut rest = sums.right;
+        add_series::<V, 5>(&mut rest, &u, &v, right, 0b10);
+        (rest[1], rest[2]) = (linear[1], linear[2]);
+        sums.right = rest;
+    }
+    sums
+}
+
+/// Adds `start` times all monomials below degree `D` to `sums`, but of the degrees whose bit is set in `without`.
+#[inline(always)]
+fn add_series<V: Vector, const D: usize>(
+    sums: &mut [V],
+    u: &[V; ROWS],
+    v: &[V; ROWS],
+    start: [V; ROWS],
+    without: u32,
+) {
+    let mut monomials = [[V::zero(); ROWS]; 9];
+    monomials[0] = start;
+    for degree in 0..D {
+        if degree > 0 {
+            // The last is a power of v, the others have one u more than those before.
+            monomials[degree] = product(&monomials[degree - 1], v);
+            for term in 0..degree {
+                monomials[term] = product(&monomials[term], u);
+            }
+        }
+        if without & 1 << degree == 0 {
+            for term in 0..=degree {
+                let [a, b, c, d] = monomials[term];
+                let sum = &mut sums[first_of(degree) + term];
+                *sum = *sum + ((a + b) + (c + d));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn product<V: Vector>(a: &[V; ROWS], b: &[V; ROWS]) -> [V; ROWS] {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
+}
+
+/// What the polynomial leaves of the height of a point.
+#[inline(always)]
+fn residual<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinates, c: &[V; TERMS], row: usize) -> V {
+    let (u, v, back, _) = coordinates(chosen, heights.u[row], heights.v[row], heights.w[row]);
+    let mut height = c[0] + (c[1] * u + c[2] * v) * back;
+    // Degree by degree, Horner's rule in v/u without the division.
+    let (mut power, mut v_power);
+    let mut u_powers = [V::one(); 5];
+    for degree in 1..5 {
+        u_powers[degree] = u_powers[degree - 1] * u;
+    }
+    for degree in 2..=4 {
+        power = V::zero();
+        v_power = V::one();
+        for term in 0..=degree {
+            power = power + c[first_of(degree) + term] * (u_powers[degree - term] * v_power);
+            v_power = v_power * v;
+        }
+        height = height + power;
+    }
+    heights.w[row] - height
+}
+
+/// `r² / variance` of a point; 0 in lanes that do not have it.
+#[inline(always)]
+fn misfit<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, setting: &Setting<V>, c: &[V; TERMS], row: usize) -> V {
+    let r = residual(heights, setting.coordinates, c, row);
+    let misfit = r * r / variance(heights, setting, row);
+    V::select(V::constant(row as f64).lt(setting.count), misfit, V::zero())
+}
+
+impl<V: Vector<Scalar = f64>> Coefficients<V> {
+    /// What the data tell of each prior size: for degrees 2 to 4, `Σ c²/binom`, and how many coefficients the prior decides,
+    /// in units of `τ²`.
+    pub fn shares(&self) -> [(V, V); 3] {
+        [2, 3, 4].map(|degree| {
+            let (mut squares, mut variances) = (V::zero(), V::zero());
+            for term in first_of(degree)..first_of(degree + 1) {
+                let inverse = V::constant(1.0 / BINOMIALS[term]);
+                squares = squares + self.c[term] * self.c[term] * inverse;
+                variances = variances + self.variances[term] * inverse;
+            }
+            (squares, variances)
+        })
+    }
+
+    /// How many of the coefficients the data decide.
+    #[inline(always)]
+    pub fn freedom(&self) -> V {
+        let mut freedom = V::constant(TERMS as f64);
+        for term in 1..TERMS {
+            freedom = freedom - self.prior[term] * self.variances[term];
+        }
+        freedom
+    }
+
+    /// The logarithm of the evidence, but for constants that are the same for all models.
+    pub fn log_evidence(&self, heights: &Heights<'_, V>, setting: &Setting<V>) -> [f64; MAX_LANES] {
+        let mut logarithms = [0.0; MAX_LANES];
+        let mut add = |x: V, factor: f64| {
+            for (sum, x) in logarithms.iter_mut().zip(x.to_lanes()).take(V::LANES) {
+                *sum += factor * libm::log(x);
+            }
+        };
+        for term in 0..TERMS {
+            add(self.inverse_pivots[term], 1.0);
+            if term > 0 {
+                add(self.prior[term], 0.5);
+            }
+        }
+        let mut squares = V::zero();
+        for row in 0..heights.len() {
+            let there = V::constant(row as f64).lt(setting.count);
+            add(V::select(there, heights.weight[row], V::one()), 0.5);
+            squares = squares + heights.weight[row] * heights.w[row] * heights.w[row];
+        }
+        let few = setting.count.lt(V::constant(FEW + 0.5));
+        let [p, q] = setting.slopes;
+        squares = squares + V::select(few, (p * p + q * q) * self.prior[1], V::zero());
+        let rest = ((squares - self.explained) * V::constant(-0.5)).to_lanes();
+        std::array::from_fn(|lane| logarithms[lane] + rest[lane])
+    }
+}
+
+/// The sum of squares that a plain polynomial of `DEGREE` leaves of the points of the first rows that `inside` has, and by how
+/// many there are more of these than coefficients.
+#[inline(always)]
+pub(super) fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
+    heights: &Heights<'_, V>,
+    length: usize,
+    inside: impl Fn(usize) -> V,
+) -> (V, V) {
+    // Normal equations lose half the digits, of which a noise level needs few; a ridge far below that keeps them solvable.
+    let mut extent = V::constant(NO_DIRECTION);
+    for row in 0..length {
+        let (u, v) = (heights.u[row], heights.v[row]);
+        extent = ((u * u + v * v) * inside(row)).max(extent);
+    }
+    let unit = V::one() / extent.sqrt();
+    let mut matrix = [[V::zero(); K]; K];
+    let mut right = [V::zero(); K];
+    let terms = |row: usize| {
+        let (u, v) = (heights.u[row] * unit, heights.v[row] * unit);
+        let mut terms = [V::one(); K];
+        let (mut first, mut length) = (0, 1);
+        while first + length < K {
+            let next = first + length;
+            for term in 0..length {
+                terms[next + term] = terms[first + term] * u;
+            }
+            terms[next + length] = terms[next - 1] * v;
+            (first, length) = (next, length + 1);
+        }
+        terms
+    };
+    let mut count = V::zero();
+    for row in 0..length {
+        let weight = inside(row);
+        count = count + weight;
+        let terms = terms(row);
+        for i in 0..K {
+            let weighted = terms[i] * weight;
+            for j in 0..=i {
+                matrix[i][j] = matrix[i][j] + weighted * terms[j];
+            }
+            right[i] = right[i] + weighted * heights.w[row];
+        }
+    }
+    let tiny = V::constant(f64::MIN_POSITIVE);
+    for k in 0..K {
+        matrix[k][k] = matrix[k][k] * V::constant(1.0 + 1e-11) + tiny;
+    }
+    let factored = factor(&mut matrix);
+    let definite = factored.definite;
+    let c = factored.solve(right);
+    let mut squares = V::zero();
+    for row in 0..length {
+        let terms = terms(row);
+        let mut height = heights.w[row];
+        for k in 0..K {
+            height = height - c[k] * terms[k];
+        }
+        squares = squares + height * height * inside(row);
+    }
+    let freedom = (count - V::constant(K as f64)).max(V::zero());
+    (squares, V::select(definite, freedom, V::zero()))
+}
+
+/// The variance that the best of three plain jets (degree 4 and 3 over two rings, 4 over three) leaves of a neighbourhood, each
+/// with the number of points more than coefficients.
+#[inline(always)]
+pub(super) fn plain_residuals<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, heights: &Heights<'_, V>) -> [(V, V); 3] {
+    let within = |rings: usize| {
+        move |row: usize| if row == 0 { V::one() } else { patch.weight_within(rings, row - 1) }
+    };
+    let (two, three) = (patch.len_within(2) + 1, patch.len_within(3) + 1);
+    [
+        plain_residual::<V, 15>(heights, two, within(2)),
+        plain_residual::<V, 10>(heights, two, within(2)),
+        plain_residual::<V, 15>(heights, three, within(3)),
+    ]
+}
+
+/// The adaptive jets of a row of vertices.
+pub(crate) struct AdaptiveJet<V: Vector> {
+    /// In the patch's units.
+    pub surface: Surface<V>,
+    /// The root mean square of what the fit leaves of the heights, each as it counts, in the patch's units.
+    pub residual: V,
+    /// How many of the 15 coefficients the data decide; 0 if it was not asked for.
+    pub freedom: V,
+    /// Lanes that have a result.
+    pub trusted: V::Mask,
+    /// Lanes in which a point is so far off that the fit should be repeated with lower weights for such.
+    pub off: V::Mask,
+    /// The mean square of how many standard deviations the vertex and its first ring are off.
+    pub ring_misfit: V,
+}
+
+/// How adaptive jets are fitted.
+pub(crate) struct AdaptiveFit<'a> {
+    pub model: AdaptiveModel,
+    pub rings: usize,
+    /// The mean length of each vertex's edges.
+    pub edge_lengths: &'a [f64],
+    /// The noise of each vertex, if it is not the same for all, in the mesh's unit.
+    pub noise: Option<&'a [f64]>,
+    /// Whether the number of coefficients that the data decide is asked for.
+    pub freedom: bool,
+}
+
+impl AdaptiveFit<'_> {
+    /// What is known of a row of vertices, and one over their mean edge lengths in the patch's units. Fills in the noise.
+    #[inline(always)]
+    pub(super) fn setting<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        patch: &Patch<'_, V>,
+        scale: V,
+        heights: &mut Heights<'_, V>,
+    ) -> (Setting<V>, V) {
+        let model = &self.model;
+        let load = |number: &dyn Fn(usize) -> f64| {
+            V::from_lanes(&std::array::from_fn(|lane| number(*vertices.get(lane).unwrap_or(&vertices[0]) as usize)))
+        };
+        let own = load(&|vertex| self.edge_lengths[vertex]);
+        let unit = V::one() / (own * scale);
+        let to_own = scale * unit;
+        let noise = load(&|vertex| self.noise.map_or(model.noise, |noise| noise[vertex]));
+        let squared = |noise: V| {
+            let noise = (noise * to_own).max(V::constant(1e-100)).min(V::constant(1e100));
+            noise * noise
+        };
+        let own_noise = squared(noise);
+        heights.noise.fill(own_noise);
+        for row in 1..=patch.len() {
+            if let Some(noise) = patch.neighbour_value(row - 1) {
+                heights.noise[row] = squared(noise);
+            }
+        }
+        let graded = if model.size_exponent == 0 { own * V::constant(1.0 / model.edge_length) } else { V::one() };
+        let mut factor = V::one();
+        let sizes_squared = model.sizes.map(|size| {
+            factor = factor * graded;
+            let size = (V::constant(size) * factor).max(V::constant(1e-100)).min(V::constant(1e100));
+            size * size
+        });
+        let setting = Setting {
+            sizes_squared,
+            count: patch.count + V::one(),
+            slopes: [V::zero(); 2],
+            coordinates: model.coordinates,
+        };
+        (setting, unit)
+    }
+
+    /// Rows of scratch for a patch of so many points.
+    pub(crate) fn scratch(&self, points: usize) -> usize {
+        scratch(points)
+    }
+
+    /// The jets of a row of vertices, `robust` if points that are off are to count less.
+    #[inline(always)]
+    pub(crate) fn lanes<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        patch: &Patch<'_, V>,
+        scale: V,
+        robust: bool,
+        scratch: &mut [V],
+    ) -> AdaptiveJet<V> {
+        let heights = &mut Heights::new(scratch, rows(patch.len()));
+        let (mut setting, unit) = self.setting(vertices, patch, scale, heights);
+        let Frame { axes, slopes } = prepare(patch, unit, heights);
+        setting.slopes = slopes;
+        weigh(heights, &setting);
+        let mut found = solve(heights, &setting, self.freedom && !robust);
+        let mut worst = V::zero();
+        let mut ring_misfit = V::zero();
+        for row in 0..=patch.len() {
+            let misfit = misfit(heights, &setting, &found.c, row);
+            worst = misfit.max(worst);
+            if row <= patch.len_within(1) {
+                let near = if row == 0 { V::one() } else { patch.weight_within(1, row - 1) };
+                ring_misfit = ring_misfit + misfit * near;
+            }
+        }
+        ring_misfit = ring_misfit / (patch.count_within(1) + V::one());
+        if robust {
+            for _ in 0..REPETITIONS {
+                self.reweigh(heights, &setting, &found.c);
+                found = solve(heights, &setting, self.freedom);
+            }
+            let mut off = V::zero();
+            for row in 0..=patch.len() {
+                let misfit = misfit(heights, &setting, &found.c, row);
+                off = off + V::select(V::constant(HALF_WEIGHT).lt(misfit), V::one(), V::zero());
+            }
+            let noisy = (setting.count * V::constant(NOISY_PART)).lt(off);
+            if noisy.bits() != 0 {
+                let mut more = V::constant(f64::MAX);
+                for (squares, freedom) in plain_residuals(patch, heights) {
+                    let enough = V::constant(0.5).lt(freedom);
+                    let variance = squares / freedom.max(V::one());
+                    more = V::select(enough, variance, V::constant(f64::MAX)).min(more);
+                }
+                let more = V::select(more.lt(V::constant(f64::MAX)).and(noisy), more, V::zero());
+                for row in 0..heights.len() {
+                    heights.noise[row] = heights.noise[row] + more;
+                }
+                weigh(heights, &setting);
+                let again = solve(heights, &setting, self.freedom);
+                for term in 0..TERMS {
+                    found.c[term] = V::select(noisy, again.c[term], found.c[term]);
+                    found.variances[term] = V::select(noisy, again.variances[term], found.variances[term]);
+                }
+            }
+        }
+        let mut squares = V::zero();
+        let mut weights = V::zero();
+        for row in 0..=patch.len() {
+            let r = residual(heights, setting.coordinates, &found.c, row);
+            squares = squares + r * r * heights.weight[row];
+            weights = weights + heights.weight[row];
+        }
+        let length = V::one() / unit;
+        let c = &found.c;
+        let two = V::constant(2.0);
+        let mut surface = Surface::of_derivatives(&axes, [c[1], c[2]], [two * c[3], c[4], two * c[5]]);
+        surface.shape = surface.shape.map(|x| x * unit);
+        let inside = V::zero().lt(unit).and(unit.lt(V::constant(f64::MAX)));
+        AdaptiveJet {
+            surface,
+            residual: (squares / weights).sqrt() * length,
+            freedom: if self.freedom { found.freedom() } else { V::zero() },
+            trusted: found.definite.and(inside),
+            off: V::constant(OFF).lt(worst),
+            ring_misfit,
+        }
+    }
+
+    /// Weights of a Student distribution for points that are off.
+    #[inline(always)]
+    fn reweigh<V: Vector<Scalar = f64>>(&self, heights: &mut Heights<'_, V>, setting: &Setting<V>, c: &[V; TERMS]) {
+        for row in 0..heights.len() {
+            let variance = variance(heights, setting, row);
+            let r = residual(heights, setting.coordinates, c, row);
+            let weight = V::one() / (variance + r * r * V::constant(1.0 / HALF_WEIGHT));
+            let there = V::constant(row as f64).lt(setting.count);
+            heights.weight[row] = V::select(there, weight, V::zero());
+        }
+    }
+}

@@ -1,0 +1,488 @@
+//! Learning from a mesh how noisy its positions are and how smooth its surface is: empirical Bayes for adaptive jets.
+//!
+//! **Sample.** Up to [`MOST_SAMPLED`] vertices, evenly spaced over the mesh, are looked at; of those away from creases (no
+//! neighbour within two rings left out, no face far from the normal) as many are learned from. Where there are few of these, all are.
+//!
+//! **Noise.** Plain jets of degrees 4 and 3 over two rings, and 4 over three, leave a mean square of each neighbourhood; `σ²` is
+//! the least of the three medians. A second model has the 0.8 quantile instead, for meshes of which a part is much noisier, and is
+//! taken only if the evidence for it is overwhelming.
+//!
+//! **Sizes.** `τ_d²` is the fixed point of MacKay 1992 ("Bayesian interpolation", eq. 4.21): the mean of the squared coefficients
+//! over as many of them as the data decide. `τ₅`, for what lies beyond, continues the series: `τ₄²/τ₃`, at most `τ₄`.
+//!
+//! **Choices.** Coordinates, and if edges are of very different lengths also how noise and sizes go with them, are those with the
+//! most evidence. Without enough vertices to learn from, circles are taken, since small meshes are mostly closed.
+//!
+//! Numerical notes: sums over the sample go vertex by vertex in one order, and logarithms are those of `libm`, so bits depend
+//! neither on lanes and threads nor on the system. Cost: 18 fits a sample vertex, at most seven times that.
+
+use super::adaptive_jet::{Frame, Heights, Setting, plain_residuals, prepare, scratch, solve, weigh};
+use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE};
+use crate::error::Error;
+use crate::parallel::Run;
+use crate::simd::{Task, Vector, Width, as_lanes, dispatch};
+use crate::sweep::{Counts, Patch, PatchQuantity, sweep_patches};
+use crate::topology::{Neighbourhood, Topology};
+use crate::view::{Points, zeroed};
+use glam::DVec3;
+use std::sync::{Mutex, PoisonError};
+
+/// The most vertices that are learned from; twice as many are looked at.
+const MOST_SAMPLED: usize = 512;
+
+/// With fewer than this, no choices are made.
+const FEW_SAMPLED: usize = 32;
+
+/// The cosine of the largest angle between the one-ring normals of a vertex and of a neighbour that counts.
+const SAME_SIDE: f64 = 0.5;
+
+/// A neighbourhood of fewer points, the vertex among them, keeps the first ring whatever its normals.
+const LEAST_POINTS: usize = 6;
+
+/// Repetitions of the fixed point.
+const REPETITIONS: usize = 8;
+
+/// Edges are of very different lengths if the 95 % quantile is more than this many times the 5 % quantile.
+const GRADED: f64 = 2.0;
+
+/// The quantile for a loud part, and by how much the logarithm of the evidence of a vertex must then be larger.
+const LOUD: f64 = 0.8;
+const LOUD_MARGIN: f64 = 20.0;
+
+/// One-rings, as far as adaptive jets ask.
+#[derive(Debug, Default)]
+pub(crate) struct Surroundings {
+    /// Unit one-ring normals, zero where there is none.
+    pub normals: Vec<[f64; 3]>,
+    /// The mean length of each vertex's edges, those of its faces at the vertex.
+    pub edge_lengths: Vec<f64>,
+    /// Whether a face of the vertex is more than 37° from its normal.
+    pub sharp: Vec<u8>,
+}
+
+impl Surroundings {
+    /// Fills `chosen` with the neighbours on the same side of any crease.
+    #[inline(always)]
+    pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        let own = DVec3::from(self.normals[vertex as usize]);
+        let counts = self.choose_beyond(own, found, if self.sharp[vertex as usize] != 0 { 1 } else { 0 }, chosen);
+        if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, chosen) } else { counts }
+    }
+
+    /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1.
+    #[inline(always)]
+    fn choose_beyond(&self, own: DVec3, found: &Neighbourhood, rings: usize, chosen: &mut [u32]) -> Counts {
+        let mut counts = found.counts_within();
+        let mut count = 0;
+        let mut first = 0;
+        for ring in 0..4 {
+            let last = counts[ring] as usize;
+            for &neighbour in &found.vertices()[first..last] {
+                chosen[count] = neighbour;
+                let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
+                count += (near || ring < rings) as usize;
+            }
+            counts[ring] = count as u32;
+            first = last;
+        }
+        counts
+    }
+
+    /// Whether a vertex is away from creases.
+    fn is_clean(&self, vertex: u32, topology: &Topology, neighbourhood: &mut Neighbourhood) -> bool {
+        let own = DVec3::from(self.normals[vertex as usize]);
+        let near = |&neighbour: &u32| own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
+        self.sharp[vertex as usize] == 0 && neighbourhood.gather(topology, vertex, 2).iter().all(near)
+    }
+}
+
+/// Learns from all vertices, whatever `run` is to compute.
+///
+/// # Errors
+/// As [`sweep_patches`].
+pub(crate) fn learn(
+    topology: &Topology,
+    points: &Points<'_>,
+    around: &Surroundings,
+    rings: usize,
+    run: &mut Run<'_>,
+) -> Result<AdaptiveModel, Error> {
+    let known = |vertex: usize| around.normals[vertex] != [0.0; 3] && around.edge_lengths[vertex] > 0.0;
+    let mut lengths: Vec<f64> = zeroed(topology.vertex_count())?;
+    let mut count = 0;
+    for vertex in (0..topology.vertex_count()).filter(|&vertex| known(vertex)) {
+        lengths[count] = around.edge_lengths[vertex];
+        count += 1;
+    }
+    let Some(edge_length) = quantile(&mut lengths[..count], 0.5) else { return Ok(AdaptiveModel::UNKNOWN) };
+    drop(lengths);
+
+    let mut neighbourhood = Neighbourhood::new();
+    let candidates: Vec<u32> = spaced(topology.vertex_count(), 2 * MOST_SAMPLED)
+        .filter(|&vertex| known(vertex))
+        .map(|vertex| vertex as u32)
+        .collect();
+    let clean: Vec<u32> = candidates
+        .iter()
+        .copied()
+        .filter(|&vertex| around.is_clean(vertex, topology, &mut neighbourhood))
+        .collect();
+    let candidates = if clean.len() < FEW_SAMPLED { candidates } else { clean };
+    let list: Vec<u32> = spaced(candidates.len(), MOST_SAMPLED).map(|index| candidates[index]).collect();
+
+    let collector = Collector { around, edge_length, rings, samples: Mutex::new(Vec::new()) };
+    run.part_for(Some(&list), 0.0, 0.5, |mut run| sweep_patches(topology, points, &mut run, &collector))?;
+    let mut samples = collector.samples.into_inner().unwrap_or_else(PoisonError::into_inner);
+    // Neighbourhoods of one size share a row of lanes.
+    samples.sort_unstable_by_key(|sample| (sample.u.len(), sample.vertex));
+    if samples.is_empty() {
+        return Ok(AdaptiveModel { edge_length, noise: LEAST_NOISE * edge_length, ..AdaptiveModel::UNKNOWN });
+    }
+    let best = choose_model(&Sampled { samples: &samples, run });
+    let Trial { noise_squared, sizes, coordinates, noise_exponent, size_exponent } = best.trial;
+    let model = AdaptiveModel {
+        edge_length,
+        noise: noise_squared.sqrt() * edge_length,
+        sizes,
+        noise_exponent,
+        size_exponent,
+        coordinates,
+        evidence: best.evidence,
+        sample: samples.len() as u32,
+    };
+    // What came out must be what can be handed in.
+    Ok(if model.check().is_ok() { model } else { AdaptiveModel { edge_length, ..AdaptiveModel::UNKNOWN } })
+}
+
+/// `0..count`, or `most` evenly spaced of them.
+fn spaced(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let taken = count.min(most);
+    (0..taken).map(move |index| (index as u64 * count as u64 / taken as u64) as usize)
+}
+
+/// The element of that rank, from 0 to 1; rearranges `numbers`.
+fn quantile(numbers: &mut [f64], rank: f64) -> Option<f64> {
+    let index = (numbers.len().checked_sub(1)? as f64 * rank) as usize;
+    Some(*numbers.select_nth_unstable_by(index, f64::total_cmp).1)
+}
+
+/// A vertex to learn from: its points in its frame, in units of its mean edge length.
+struct Sample {
+    vertex: u32,
+    u: Vec<f64>,
+    v: Vec<f64>,
+    w: Vec<f64>,
+    /// The mean edge lengths of the points' vertices.
+    grades: Vec<f64>,
+    slopes: [f64; 2],
+    /// What plain jets leave, and how many more points than coefficients they had.
+    plain: [(f64, f64); 3],
+}
+
+/// Puts samples into their frames.
+struct Collector<'a> {
+    around: &'a Surroundings,
+    edge_length: f64,
+    rings: usize,
+    samples: Mutex<Vec<Sample>>,
+}
+
+impl Collector<'_> {
+    #[inline(always)]
+    fn collect<V: Vector<Scalar = f64>>(&self, vertices: &[u32], patch: &Patch<'_, V>, scale: V, scratch: &mut [V]) {
+        let own = vertices.iter().map(|&vertex| self.around.edge_lengths[vertex as usize]);
+        let mut lanes = [1.0; crate::simd::MAX_LANES];
+        lanes.iter_mut().zip(own).for_each(|(lane, own)| *lane = own);
+        let unit = V::one() / (V::from_lanes(&lanes) * scale);
+        let heights = &mut Heights::new(scratch, super::adaptive_jet::rows(patch.len()));
+        let Frame { slopes, .. } = prepare(patch, unit, heights);
+        let plain = plain_residuals(patch, heights).map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
+        let (counts, slopes) = (patch.count.to_lanes(), slopes.map(V::to_lanes));
+        for (lane, &vertex) in vertices.iter().enumerate() {
+            let rows = 0..counts[lane] as usize + 1;
+            let column = |numbers: &[V]| rows.clone().map(|row| numbers[row].to_lanes()[lane]).collect();
+            let grade = |row: usize| match row {
+                0 => self.around.edge_lengths[vertex as usize],
+                _ => patch.neighbour_value(row - 1).map_or(1.0, |value| value.to_lanes()[lane]),
+            };
+            let sample = Sample {
+                vertex,
+                u: column(heights.u),
+                v: column(heights.v),
+                w: column(heights.w),
+                grades: rows.clone().map(|row| grade(row) / self.edge_length).collect(),
+                slopes: [slopes[0][lane], slopes[1][lane]],
+                plain: plain.map(|(squares, freedom)| (squares[lane], freedom[lane])),
+            };
+            let all_finite = [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());
+            if all_finite {
+                self.samples.lock().unwrap_or_else(PoisonError::into_inner).push(sample);
+            }
+        }
+    }
+}
+
+impl PatchQuantity for Collector<'_> {
+    fn rings(&self) -> usize {
+        self.rings
+    }
+    fn least(&self) -> usize {
+        0
+    }
+    fn scratch(&self, points: usize) -> usize {
+        scratch(points)
+    }
+    fn normals(&self) -> &[[f64; 3]] {
+        &self.around.normals
+    }
+    fn values(&self) -> Option<&[f64]> {
+        Some(&self.around.edge_lengths)
+    }
+    #[inline(always)]
+    fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        self.around.choose(vertex, found, chosen)
+    }
+
+    #[inline(always)]
+    fn block<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        patch: &Patch<'_, V>,
+        scale: V,
+        _widened: u32,
+        _attempt: usize,
+        scratch: &mut [V],
+    ) -> u32 {
+        self.collect(vertices, patch, scale, scratch);
+        0
+    }
+
+    /// No block leaves anything over.
+    fn alone(
+        &self,
+        _vertex: usize,
+        _patch: &Patch<'_, f64>,
+        _scale: f64,
+        _widened: bool,
+        _last: bool,
+        _scratch: &mut [f64],
+    ) -> bool {
+        true
+    }
+    fn isolated(&self, _vertex: usize) {}
+}
+
+/// The numbers of a model, in units of the mesh's edge length.
+#[derive(Clone, Copy)]
+struct Trial {
+    noise_squared: f64,
+    sizes: [f64; 4],
+    coordinates: Coordinates,
+    noise_exponent: u8,
+    size_exponent: u8,
+}
+
+/// A model with its evidence.
+#[derive(Clone, Copy)]
+struct Learned {
+    trial: Trial,
+    /// Its own logarithm a vertex.
+    own: f64,
+    /// The best of both coordinates.
+    evidence: [f64; 2],
+}
+
+struct Sampled<'a, 'r, 'p> {
+    samples: &'a [Sample],
+    run: &'r Run<'p>,
+}
+
+fn choose_model(sampled: &Sampled<'_, '_, '_>) -> Learned {
+    let tiny = sampled.samples.len() < FEW_SAMPLED;
+    let mut best = sampled.learn(Coordinates::Circle, 0, 0, 0.5);
+    if tiny {
+        return best;
+    }
+    best.take(sampled.learn(Coordinates::Height, 0, 0, 0.5), 0.0);
+    let mut grades: Vec<f64> = sampled.samples.iter().map(|sample| sample.grades[0]).collect();
+    let low = quantile(&mut grades, 0.05).unwrap_or(1.0);
+    let high = quantile(&mut grades, 0.95).unwrap_or(1.0);
+    if high > GRADED * low {
+        for (noise_exponent, size_exponent) in [(1, 0), (2, 0), (1, 1)] {
+            best.take(sampled.learn(best.trial.coordinates, noise_exponent, size_exponent, 0.5), 0.0);
+        }
+        let other = match best.trial.coordinates {
+            Coordinates::Height => Coordinates::Circle,
+            Coordinates::Circle => Coordinates::Height,
+        };
+        best.take(sampled.learn(other, best.trial.noise_exponent, best.trial.size_exponent, 0.5), 0.0);
+    }
+    let Trial { coordinates, noise_exponent, size_exponent, .. } = best.trial;
+    best.take(sampled.learn(coordinates, noise_exponent, size_exponent, LOUD), LOUD_MARGIN);
+    best
+}
+
+impl Learned {
+    /// Becomes `other` if there is more evidence for that, by more than `margin`.
+    fn take(&mut self, other: Learned, margin: f64) {
+        let mut evidence = self.evidence;
+        for (best, other) in evidence.iter_mut().zip(other.evidence) {
+            if other != 0.0 && (*best == 0.0 || other > *best + margin) {
+                *best = other;
+            }
+        }
+        if other.own > self.own + margin {
+            *self = other;
+        }
+        self.evidence = evidence;
+    }
+}
+
+/// Sums over the sample: for degrees 2 to 4, of squares of coefficients and of what the prior decides of them; and of evidence.
+#[derive(Default)]
+struct Totals {
+    squares: [f64; 3],
+    decided: [f64; 3],
+    evidence: f64,
+}
+
+impl Sampled<'_, '_, '_> {
+    /// The best numbers for these choices.
+    fn learn(&self, coordinates: Coordinates, noise_exponent: u8, size_exponent: u8, rank: f64) -> Learned {
+        let mut trial = Trial {
+            noise_squared: self.noise(noise_exponent, rank),
+            sizes: AdaptiveModel::UNKNOWN.sizes,
+            coordinates,
+            noise_exponent,
+            size_exponent,
+        };
+        for _ in 0..REPETITIONS {
+            let totals = self.totals(&trial, false);
+            for degree in 2..=4 {
+                let count = ((degree + 1) * self.samples.len()) as f64;
+                let (squares, decided) = (totals.squares[degree - 2], totals.decided[degree - 2]);
+                let size = &mut trial.sizes[degree - 2];
+                let free = (count - decided / (*size * *size)).max(1e-3 * count);
+                *size = (squares / free).max(LEAST_NOISE * LEAST_NOISE).sqrt();
+            }
+            let [_, third, fourth, beyond] = &mut trial.sizes;
+            *beyond = (*fourth * *fourth / third.max(1e-9)).clamp(0.02 * *fourth, *fourth);
+        }
+        let own = self.totals(&trial, true).evidence / self.samples.len() as f64;
+        let mut evidence = [0.0; 2];
+        evidence[(coordinates == Coordinates::Circle) as usize] = own;
+        Learned { trial, own, evidence }
+    }
+
+    /// The variance of the noise that plain jets leave, in units of the mesh's edge length.
+    fn noise(&self, exponent: u8, rank: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for jet in 0..3 {
+            let mut variances: Vec<f64> = self
+                .samples
+                .iter()
+                .filter(|sample| sample.plain[jet].1 > 0.5)
+                .map(|sample| {
+                    let (squares, freedom) = sample.plain[jet];
+                    let grade = sample.grades[0];
+                    let factor = [grade, 1.0, 1.0 / grade][exponent as usize];
+                    squares / freedom * factor * factor
+                })
+                .collect();
+            if variances.len() >= 8 {
+                least = quantile(&mut variances, rank).unwrap_or(least).min(least);
+            }
+        }
+        // None of them has enough points: nothing can be told from the surface.
+        if least == f64::INFINITY {
+            least = 0.0;
+        }
+        least.max(LEAST_NOISE * LEAST_NOISE)
+    }
+
+    fn totals(&self, trial: &Trial, evidence: bool) -> Totals {
+        let mut totals = Totals::default();
+        dispatch(self.run.level, Evaluate { samples: self.samples, trial, evidence, totals: &mut totals });
+        totals
+    }
+}
+
+/// Fits all samples with a trial's numbers.
+struct Evaluate<'a> {
+    samples: &'a [Sample],
+    trial: &'a Trial,
+    evidence: bool,
+    totals: &'a mut Totals,
+}
+
+impl Task for Evaluate<'_> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        let lanes = W::Double::LANES;
+        let most = self.samples.last().map_or(0, |sample| scratch(sample.u.len()));
+        // At most 255 points, so this is small.
+        let mut memory = vec![0.0; (most + 1) * lanes];
+        for block in self.samples.chunks(lanes) {
+            evaluate::<W::Double>(block, self.trial, self.evidence, as_lanes(&mut memory), self.totals);
+        }
+    }
+}
+
+#[inline(always)]
+fn evaluate<V: Vector<Scalar = f64>>(
+    block: &[Sample],
+    trial: &Trial,
+    evidence: bool,
+    scratch: &mut [V],
+    totals: &mut Totals,
+) {
+    let load = |number: &dyn Fn(&Sample) -> f64| {
+        V::from_lanes(&std::array::from_fn(|lane| number(block.get(lane).unwrap_or(&block[0]))))
+    };
+    let most = block.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
+    let heights = &mut Heights::new(scratch, super::adaptive_jet::rows(most - 1));
+    for row in 0..heights.u.len() {
+        let at = |column: &Vec<f64>| column.get(row).copied().unwrap_or(0.0);
+        heights.u[row] = load(&|sample| at(&sample.u));
+        heights.v[row] = load(&|sample| at(&sample.v));
+        heights.w[row] = load(&|sample| at(&sample.w));
+        let noise = |sample: &Sample| {
+            let grade = sample.grades.get(row).copied().unwrap_or(1.0);
+            let factor = [1.0, grade, grade * grade][trial.noise_exponent as usize] / sample.grades[0];
+            (trial.noise_squared * factor * factor).clamp(1e-200, 1e200)
+        };
+        heights.noise[row] = load(&noise);
+    }
+    let grade = |sample: &Sample| if trial.size_exponent == 0 { sample.grades[0] } else { 1.0 };
+    let size_squared = |degree: usize, sample: &Sample| {
+        let size = trial.sizes[degree - 2] * powi(grade(sample), degree - 1);
+        (size * size).clamp(1e-200, 1e200)
+    };
+    let setting = Setting {
+        sizes_squared: [2, 3, 4, 5].map(|degree| load(&|sample| size_squared(degree, sample))),
+        count: load(&|sample| sample.u.len() as f64),
+        slopes: [load(&|sample| sample.slopes[0]), load(&|sample| sample.slopes[1])],
+        coordinates: trial.coordinates,
+    };
+    weigh(heights, &setting);
+    let found = solve(heights, &setting, !evidence);
+    if evidence {
+        let logarithms = found.log_evidence(heights, &setting);
+        for logarithm in &logarithms[..block.len()] {
+            totals.evidence += logarithm;
+        }
+        return;
+    }
+    for (index, (squares, decided)) in found.shares().into_iter().enumerate() {
+        let (squares, decided) = (squares.to_lanes(), decided.to_lanes());
+        for (lane, sample) in block.iter().enumerate() {
+            let factor = powi(grade(sample), index + 1);
+            totals.squares[index] += squares[lane] / (factor * factor);
+            totals.decided[index] += decided[lane] / (factor * factor);
+        }
+    }
+}
+
+fn powi(x: f64, power: usize) -> f64 {
+    (0..power).fold(1.0, |product, _| product * x)
+}

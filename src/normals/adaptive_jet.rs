@@ -1,0 +1,262 @@
+//! Adaptive jets over a mesh: rings, model, fits, creases.
+//!
+//! See [`fit`](crate::fit) for the fit and for what is learned. This file runs them: first what all one-rings are like, then, if
+//! no model is given, what the mesh teaches, then the fits, and at last the vertices on creases.
+//!
+//! **Creases.** A vertex with a face more than 37° from its normal is on a crease if a smooth surface through its ring
+//! contradicts what was learned of noise and smoothness: if the mean square of how many standard deviations vertex and ring are
+//! off is more than [`CREASED`]. Then nothing is fitted there: its normal is the mean direction of the sides of the crease
+//! (`surroundings.rs`), curvatures are those of sections, and the status says crease. Everywhere else neighbours beyond a crease do not
+//! count, since their normals are more than 60° away.
+//!
+//! Degenerate rule: a vertex without normal has no result (status degenerate); one where the fit has no solution in range keeps
+//! Max's normal, without curvature (status fallback).
+//!
+//! Cost: about that of a jet of degree 3 over two rings for each of them, and for learning that of a few thousand vertices.
+
+use super::surroundings::{crease_normals, surroundings};
+use super::vertex::NormalOutputs;
+use crate::error::Error;
+use crate::fit::{AdaptiveFit, AdaptiveJet, AdaptiveModel, Surroundings, learn};
+use crate::parallel::Run;
+use crate::simd::{Mask, Vector};
+use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
+use crate::topology::{Neighbourhood, Topology, closure, status};
+use crate::view::{Points, StatusOutput, zeroed};
+
+/// How an adaptive jet is fitted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AdaptiveOptions {
+    /// The rings of neighbours that it is fitted to, at most 8; 0 for 4. With 3 it costs about half and is as good on clean
+    /// meshes.
+    pub rings: u8,
+    /// What is known of the mesh; learned from it if there is none.
+    pub model: Option<AdaptiveModel>,
+}
+
+/// The rings if none are asked for.
+const DEFAULT_RINGS: usize = 4;
+
+/// See the top of this file.
+const CREASED: f64 = 20.0;
+
+/// Where the results of adaptive jets go.
+pub(crate) trait Sink: Sync {
+    /// Whether [`AdaptiveJet::freedom`] is asked for.
+    fn freedom(&self) -> bool {
+        false
+    }
+    /// Writes the lanes of a block whose bits are set and that have numbers in range; answers with their bits.
+    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, jet: &AdaptiveJet<V>, scale: V) -> u32;
+    /// Writes a vertex that has no jet, with its normal (zero where it has none) and status bits.
+    fn write_none(&self, vertex: usize, normal: [f64; 3], more: u8);
+    /// Writes the vertices on creases, which are those of `run`; `normals` has theirs.
+    ///
+    /// # Errors
+    /// As [`sweep`](crate::sweep::sweep).
+    fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error>;
+}
+
+/// The rings that are asked for.
+///
+/// # Errors
+/// [`Error::OptionOutOfRange`]
+pub(crate) fn adaptive_rings(rings: usize) -> Result<usize, Error> {
+    match rings {
+        0 => Ok(DEFAULT_RINGS),
+        rings if rings > MOST_RINGS => Err(Error::OptionOutOfRange { what: "options.rings" }),
+        rings => Ok(rings),
+    }
+}
+
+/// Learns what adaptive jets use of a mesh, from a sample of all its vertices; `run.vertices` is not looked at.
+///
+/// Handed to calls in [`AdaptiveOptions::model`], it gives the same bits as calls that learn it themselves.
+///
+/// # Errors
+/// [`Error::OptionOutOfRange`] for more than 8 rings; [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`];
+/// [`Error::Cancelled`]; [`Error::OutOfMemory`].
+pub fn learn_model(
+    topology: &Topology,
+    points: &Points<'_>,
+    rings: usize,
+    mut run: Run<'_>,
+) -> Result<AdaptiveModel, Error> {
+    let rings = adaptive_rings(rings)?;
+    let around = run.part_for(None, 0.0, 0.5, |mut run| surroundings(topology, points, &mut run))?;
+    run.part_for(None, 0.5, 1.0, |mut run| learn(topology, points, &around, rings, &mut run))
+}
+
+/// Fits adaptive jets to the vertices of `run`.
+///
+/// # Errors
+/// As [`learn_model`], and [`Error::IndexOutOfRange`].
+pub(crate) fn adaptive_jets<S: Sink>(
+    topology: &Topology,
+    points: &Points<'_>,
+    options: AdaptiveOptions,
+    mut run: Run<'_>,
+    sink: &S,
+) -> Result<(), Error> {
+    let rings = adaptive_rings(options.rings as usize)?;
+    if let Some(model) = &options.model {
+        model.check()?;
+    }
+    // Without a model every ring is looked at.
+    let list = match (run.vertices, &options.model) {
+        (Some(vertices), Some(_)) => Some(closure(topology, vertices, rings)?),
+        _ => None,
+    };
+    let mut around = run.part_for(list.as_deref(), 0.0, 0.05, |mut run| surroundings(topology, points, &mut run))?;
+    let model = match options.model {
+        Some(model) => model,
+        None => run.part_for(None, 0.05, 0.1, |mut run| learn(topology, points, &around, rings, &mut run))?,
+    };
+    let mut noise = Vec::new();
+    if model.noise_exponent > 0 {
+        noise = zeroed(topology.vertex_count())?;
+        crate::parallel::fill(run.threads, &mut noise, |vertex| model.noise_at(around.edge_lengths[vertex]));
+    }
+    let mut creased: Vec<u8> = zeroed(topology.vertex_count())?;
+    let quantity = Jets {
+        fit: AdaptiveFit {
+            model,
+            rings,
+            edge_lengths: &around.edge_lengths,
+            noise: (model.noise_exponent > 0).then_some(&noise),
+            freedom: sink.freedom(),
+        },
+        around: &around,
+        creased: creased.as_mut_slice().into(),
+        sink,
+    };
+    run.part(0.1, 0.95, |mut run| sweep_patches(topology, points, &mut run, &quantity))?;
+    let is_creased = |vertex: &u32| creased[*vertex as usize] != 0;
+    let creases: Vec<u32> = match run.vertices {
+        Some(vertices) => vertices.iter().copied().filter(is_creased).collect(),
+        None => (0..topology.vertex_count() as u32).filter(is_creased).collect(),
+    };
+    run.part_for(Some(&creases), 0.95, 0.97, |mut run| {
+        crease_normals(topology, points, &mut run, &mut around.normals)
+    })?;
+    run.part_for(Some(&creases), 0.97, 1.0, |run| sink.write_creases(run, &around.normals))
+}
+
+/// Fits, and marks vertices on creases.
+struct Jets<'a, S> {
+    fit: AdaptiveFit<'a>,
+    around: &'a Surroundings,
+    creased: StatusOutput<'a>,
+    sink: &'a S,
+}
+
+impl<S: Sink> PatchQuantity for Jets<'_, S> {
+    const ATTEMPTS: usize = 2;
+
+    fn rings(&self) -> usize {
+        self.fit.rings
+    }
+    fn least(&self) -> usize {
+        0
+    }
+    fn scratch(&self, points: usize) -> usize {
+        self.fit.scratch(points)
+    }
+    fn normals(&self) -> &[[f64; 3]] {
+        &self.around.normals
+    }
+    fn values(&self) -> Option<&[f64]> {
+        self.fit.noise
+    }
+    #[inline(always)]
+    fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        self.around.choose(vertex, found, chosen)
+    }
+
+    #[inline(always)]
+    fn block<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        patch: &Patch<'_, V>,
+        scale: V,
+        _widened: u32,
+        attempt: usize,
+        scratch: &mut [V],
+    ) -> u32 {
+        let jet = self.fit.lanes(vertices, patch, scale, attempt > 0, scratch);
+        let all = (1u32 << vertices.len()) - 1;
+        let known = jet.trusted.and(V::zero().lt(patch.normal.squared())).bits() & all;
+        let mut creases = known & V::constant(CREASED).lt(jet.ring_misfit).bits();
+        for (lane, &vertex) in vertices.iter().enumerate() {
+            if creases & 1 << lane != 0 {
+                if self.around.sharp[vertex as usize] != 0 {
+                    self.creased.write(vertex as usize, 1);
+                } else {
+                    creases &= !(1 << lane);
+                }
+            }
+        }
+        let again = if attempt == 0 { jet.off.bits() } else { 0 };
+        all & !creases & !self.sink.write(vertices, known & !creases & !again, &jet, scale)
+    }
+
+    fn alone(
+        &self,
+        vertex: usize,
+        _patch: &Patch<'_, f64>,
+        _scale: f64,
+        _widened: bool,
+        _last: bool,
+        _scratch: &mut [f64],
+    ) -> bool {
+        let normal = self.around.normals[vertex];
+        self.sink.write_none(vertex, normal, if normal == [0.0; 3] { status::DEGENERATE } else { status::FALLBACK });
+        true
+    }
+
+    fn isolated(&self, vertex: usize) {
+        self.sink.write_none(vertex, [0.0; 3], status::ISOLATED);
+    }
+}
+
+/// [`vertex_normals`](super::vertex_normals) by adaptive jets. The counts of `outputs` have been checked.
+pub(super) fn adaptive_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    options: AdaptiveOptions,
+    run: Run<'_>,
+    outputs: &NormalOutputs<'_>,
+) -> Result<(), Error> {
+    adaptive_jets(topology, points, options, run, &Normals { outputs, flags: topology.flags() })
+}
+
+struct Normals<'a> {
+    outputs: &'a NormalOutputs<'a>,
+    flags: &'a [u8],
+}
+
+impl Sink for Normals<'_> {
+    #[inline(always)]
+    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, jet: &AdaptiveJet<V>, _scale: V) -> u32 {
+        let normal = jet.surface.normal;
+        let lanes = lanes & normal.squared().lt(V::constant(2.0)).bits();
+        let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
+        for (lane, &vertex) in vertices.iter().enumerate() {
+            if lanes & 1 << lane != 0 {
+                self.write_none(vertex as usize, axes.map(|axis| axis[lane]), 0);
+            }
+        }
+        lanes
+    }
+
+    fn write_none(&self, vertex: usize, normal: [f64; 3], more: u8) {
+        self.outputs.write(vertex, normal, normal, self.flags[vertex] | more);
+    }
+
+    fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
+        for &vertex in run.vertices.unwrap_or(&[]) {
+            self.write_none(vertex as usize, normals[vertex as usize], status::CREASE);
+        }
+        Ok(())
+    }
+}

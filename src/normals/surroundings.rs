@@ -1,0 +1,213 @@
+//! What adaptive jets ask of every one-ring: Max's normal, the mean edge length, and whether a face is far from the normal.
+//!
+//! And the normal of a vertex on a crease. Its ring is cut where neighbouring faces differ by more than 37°; each piece has
+//! the normal of its faces by Max's weights, and the vertex the mean direction of its pieces. So all vertices along an edge
+//! between two flat faces have the bisector, however the faces are cut up; a corner has the mean of its three.
+//!
+//! Cost: as Max's weight, and one more pass over the faces.
+
+use super::sum::{Estimator, Sum};
+use super::vertex::with_fallback;
+use super::weights::{Max, term};
+use crate::error::Error;
+use crate::fit::Surroundings;
+use crate::parallel::Run;
+use crate::simd::{Mask, Vector, Vector3};
+use crate::sweep::{Corner, Face, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::topology::Topology;
+use crate::view::{Output, Points, ScalarOutput, StatusOutput, zeroed};
+
+/// The cosine of 37°.
+const NEAR: f64 = 0.8;
+
+/// Pieces whose unit normals cancel to less than this have no mean direction.
+const CANCELLED: f64 = 0.2;
+
+/// Looks at the rings that `run` asks for; zeros stand for the others.
+///
+/// # Errors
+/// As [`sweep`].
+pub(super) fn surroundings(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+) -> Result<Surroundings, Error> {
+    let count = topology.vertex_count();
+    let mut found =
+        Surroundings { normals: zeroed(count)?, edge_lengths: zeroed(count)?, sharp: zeroed(count)? };
+    let quantity = Look {
+        normal: found.normals.as_mut_slice().into(),
+        edge_length: found.edge_lengths.as_mut_slice().into(),
+        sharp: found.sharp.as_mut_slice().into(),
+    };
+    sweep(topology, points, run, true, &quantity)?;
+    Ok(found)
+}
+
+struct Look<'a> {
+    normal: Output<'a>,
+    edge_length: ScalarOutput<'a>,
+    sharp: StatusOutput<'a>,
+}
+
+/// The unit normal of a corner's face; zero where it has none.
+#[inline(always)]
+fn unit<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> Vector3<V> {
+    corner.direction() * corner.unit()
+}
+
+/// The sum of the mean lengths of the corners' two edges, and the smallest cosine of a face and `normal`.
+#[inline(always)]
+fn look<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, normal: Vector3<V>) -> (V, V) {
+    let (mut lengths, mut least) = (V::zero(), V::one());
+    let mut before = ring.squared[0].sqrt();
+    for index in 0..ring.corner_count() {
+        let after = ring.squared[index + 1].sqrt();
+        lengths = lengths + (before + after) * V::constant(0.5);
+        before = after;
+        let unit = unit(&ring.corner(index));
+        let there = V::zero().lt(unit.squared());
+        least = V::select(there, unit.dot(normal), V::one()).min(least);
+    }
+    (lengths, least)
+}
+
+impl Quantity for Look<'_> {
+    const SINGLE: bool = false;
+
+    #[inline(always)]
+    fn block<V: Vector, F: RingFaces<V>>(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, V, F>,
+        scale: V,
+        scratch: &mut Scratch<'_, V>,
+    ) -> u32 {
+        let sum = Max::sum(ring, scratch);
+        let (trusted, squared) = sum.trusted();
+        let (trusted, normal) = (trusted.bits(), sum.vector.divided_by(squared.sqrt()));
+        let (lengths, least) = look(ring, normal);
+        let length = lengths * V::constant(1.0 / ring.corner_count() as f64) / scale;
+        let sharp = least.lt(V::constant(NEAR)).bits();
+        let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
+        let length = length.to_lanes();
+        for (lane, &vertex) in vertices.iter().enumerate() {
+            if trusted & 1 << lane != 0 {
+                self.normal.write(vertex as usize, axes.map(|axis| axis[lane].into()));
+                self.edge_length.write(vertex as usize, [length[lane].into()]);
+                self.sharp.write(vertex as usize, (sharp >> lane & 1) as u8);
+            }
+        }
+        !trusted & ((1u32 << vertices.len()) - 1)
+    }
+
+    fn alone<F: RingFaces<f64>>(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, F>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        let Some((normal, ..)) = with_fallback::<Max, F>(fans, scale, scratch) else { return };
+        let (mut lengths, mut corners, mut least) = (0.0, 0, 1.0f64);
+        for ring in fans.rings() {
+            let (more, cosine) = look(&ring, Vector3 { x: normal[0], y: normal[1], z: normal[2] });
+            lengths += more;
+            corners += ring.corner_count();
+            least = least.min(cosine);
+        }
+        self.normal.write(vertex, normal);
+        self.edge_length.write(vertex, [lengths / corners.max(1) as f64 / scale]);
+        self.sharp.write(vertex, (least < NEAR) as u8);
+    }
+
+    fn isolated(&self, _vertex: usize) {}
+}
+
+/// Replaces the normals of the vertices of `run`, which must be a list, by those of vertices on a crease.
+///
+/// # Errors
+/// As [`sweep`].
+pub(super) fn crease_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    normals: &mut [[f64; 3]],
+) -> Result<(), Error> {
+    sweep(topology, points, run, true, &Crease { normal: normals.into() })
+}
+
+struct Crease<'a> {
+    normal: Output<'a>,
+}
+
+impl Quantity for Crease<'_> {
+    const SINGLE: bool = false;
+
+    /// Where rings are cut differs from lane to lane.
+    #[inline(always)]
+    fn block<V: Vector, F: RingFaces<V>>(
+        &self,
+        vertices: &[u32],
+        _ring: &Ring<'_, V, F>,
+        _scale: V,
+        _scratch: &mut Scratch<'_, V>,
+    ) -> u32 {
+        (1u32 << vertices.len()) - 1
+    }
+
+    fn alone<F: RingFaces<f64>>(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, F>,
+        _scale: f64,
+        _scratch: &mut Scratch<'_, f64>,
+    ) {
+        let mut pieces = Vector3::zero();
+        for ring in fans.rings() {
+            pieces = pieces + sum_of_pieces(&ring);
+        }
+        let length = pieces.squared().sqrt();
+        if length > CANCELLED {
+            let unit = pieces * (1.0 / length);
+            self.normal.write(vertex, [unit.x, unit.y, unit.z]);
+        }
+    }
+
+    fn isolated(&self, _vertex: usize) {}
+}
+
+/// The sum of the unit normals of the pieces of a ring.
+fn sum_of_pieces<F: RingFaces<f64>>(ring: &Ring<'_, f64, F>) -> Vector3<f64> {
+    let count = ring.corner_count();
+    // Whether the ring is cut before a corner.
+    let cut = |index: usize| {
+        if index == 0 && !ring.closed {
+            return true;
+        }
+        let (before, after) = (unit(&ring.corner((index + count - 1) % count)), unit(&ring.corner(index)));
+        // A face without normal is on no side.
+        before.dot(after) < NEAR && before.squared() > 0.0 && after.squared() > 0.0
+    };
+    let first = (0..count).find(|&index| cut(index)).unwrap_or(0);
+    let mut pieces = Vector3::zero();
+    let mut piece = Sum::<f64>::zero();
+    let mut finish = |piece: &mut Sum<f64>| {
+        let (trusted, squared) = piece.trusted();
+        if trusted {
+            pieces = pieces + piece.vector * (1.0 / squared.sqrt());
+        }
+        *piece = Sum::zero();
+    };
+    for step in 0..count {
+        let index = (first + step) % count;
+        if step > 0 && cut(index) {
+            finish(&mut piece);
+        }
+        let (vector, spread) = term::<Max, f64, F::Face>(&ring.corner(index));
+        piece.vector = piece.vector + vector;
+        piece.spread += spread;
+    }
+    finish(&mut piece);
+    pieces
+}
