@@ -38,7 +38,10 @@ pub use curvature::{
 };
 pub use error::Error;
 pub use fit::{AdaptiveModel, Coordinates, JetOptions};
-pub use normals::{AdaptiveOptions, FaceOutputs, learn_model, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+pub use normals::{
+    AdaptiveOptions, FaceOutputs, NormalOutputs, Weight, face_normals, learn_model, vertex_normals,
+    vertex_normals_from_faces,
+};
 pub use parallel::Run;
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};

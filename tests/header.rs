@@ -13,7 +13,9 @@ fn header_is_up_to_date() {
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).unwrap();
     // The files in the order a reader wants them.
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for module in ["status", "types", "topology", "adaptive", "normals", "curvature", "sections", "polyline", "version"] {
+    for module in
+        ["status", "types", "topology", "adaptive", "normals", "curvature", "sections", "polyline", "version"]
+    {
         builder = builder.with_src(root().join(format!("src/capi/{module}.rs")));
     }
     let mut generated = Vec::new();

@@ -54,7 +54,7 @@ pub struct umb_adaptive_model {
 ///
 /// @param topology the handle
 /// @param points the positions of all its vertices; read only during the call
-/// @param options of which `rings` and `run` count, but not `run.vertices`; may be null
+/// @param options of which only `run` counts, and of that not `vertices`; may be null
 /// @param model receives the numbers; set its `struct_size` (or 0) before
 /// @param error may be null
 ///
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn umb_learn_model(
                     coordinates,
                     evidence,
                     sample,
-                } = learn_model(topology, &points, options.rings as usize, run)?;
+                } = learn_model(topology, &points, run)?;
                 Ok(umb_adaptive_model {
                     struct_size: 0,
                     coordinates: match coordinates {

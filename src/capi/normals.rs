@@ -7,7 +7,9 @@ use super::topology::umb_topology;
 use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
 use crate::error::Error;
 use crate::fit::{JetOptions, MOST_DEGREE};
-use crate::normals::{AdaptiveOptions, FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces};
+use crate::normals::{
+    AdaptiveOptions, FaceOutputs, NormalOutputs, Weight, face_normals, vertex_normals, vertex_normals_from_faces,
+};
 use crate::sweep::MOST_RINGS;
 use std::mem::offset_of;
 
@@ -206,13 +208,7 @@ pub unsafe extern "C" fn umb_vertex_normals_from_faces(
             let outputs = vertex_outputs(outputs, points.len())?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            vertex_normals_from_faces(
-                &faces,
-                &points,
-                options.asked()?,
-                run,
-                &outputs,
-            )
+            vertex_normals_from_faces(&faces, &points, options.asked()?, run, &outputs)
         })
     }
 }

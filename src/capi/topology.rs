@@ -214,29 +214,29 @@ pub unsafe extern "C" fn umb_topology_get_stats(
         guard(error, || {
             let topology = topology.as_ref().ok_or(Error::NullPointer { what: "topology" })?;
             write_versioned(stats, "stats", || {
-            let found = topology.0.stats()?;
-            Ok(umb_topology_stats {
-                struct_size: 0,
-                reserved: 0,
-                vertex_count: found.vertex_count as u64,
-                face_count: found.face_count as u64,
-                corner_count: found.corner_count as u64,
-                edge_count: found.edge_count as u64,
-                boundary_edges: found.boundary_edges as u64,
-                non_manifold_edges: found.non_manifold_edges as u64,
-                winding_edges: found.winding_edges as u64,
-                isolated_vertices: found.isolated_vertices as u64,
-                boundary_vertices: found.boundary_vertices as u64,
-                non_manifold_vertices: found.non_manifold_vertices as u64,
-                degenerate_faces: found.degenerate_faces as u64,
-                ignored_faces: found.ignored_faces as u64,
-                duplicate_faces: found.duplicate_faces as u64,
-                component_count: found.component_count as u64,
-                boundary_loops: found.boundary_loops as u64,
-                euler_characteristic: found.euler_characteristic,
-                max_valence: found.max_valence as u64,
-                bytes: found.bytes as u64,
-            })
+                let found = topology.0.stats()?;
+                Ok(umb_topology_stats {
+                    struct_size: 0,
+                    reserved: 0,
+                    vertex_count: found.vertex_count as u64,
+                    face_count: found.face_count as u64,
+                    corner_count: found.corner_count as u64,
+                    edge_count: found.edge_count as u64,
+                    boundary_edges: found.boundary_edges as u64,
+                    non_manifold_edges: found.non_manifold_edges as u64,
+                    winding_edges: found.winding_edges as u64,
+                    isolated_vertices: found.isolated_vertices as u64,
+                    boundary_vertices: found.boundary_vertices as u64,
+                    non_manifold_vertices: found.non_manifold_vertices as u64,
+                    degenerate_faces: found.degenerate_faces as u64,
+                    ignored_faces: found.ignored_faces as u64,
+                    duplicate_faces: found.duplicate_faces as u64,
+                    component_count: found.component_count as u64,
+                    boundary_loops: found.boundary_loops as u64,
+                    euler_characteristic: found.euler_characteristic,
+                    max_valence: found.max_valence as u64,
+                    bytes: found.bytes as u64,
+                })
             })
         })
     }

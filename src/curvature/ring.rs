@@ -130,7 +130,11 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         if found.trusted() & Self::normals_there(frame.normal) & 1 != 0 {
             self.write(&vertices, 1, &found, scale);
         } else {
-            self.outputs.write_none(vertex, self.normals[vertex], self.flags[vertex] | self.more | status::DEGENERATE);
+            self.outputs.write_none(
+                vertex,
+                self.normals[vertex],
+                self.flags[vertex] | self.more | status::DEGENERATE,
+            );
         }
     }
 

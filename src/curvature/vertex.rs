@@ -130,7 +130,13 @@ fn by_method(
     let section = options.section;
     macro_rules! ring {
         ($estimator:expr) => {
-            sweep(topology, points, &mut run, true, &Curvatures { outputs, flags, normals, estimator: $estimator, more: 0 })
+            sweep(
+                topology,
+                points,
+                &mut run,
+                true,
+                &Curvatures { outputs, flags, normals, estimator: $estimator, more: 0 },
+            )
         };
     }
     macro_rules! patch {

@@ -65,6 +65,12 @@ const NO_DIRECTION: f64 = 1e-20;
 /// The square of how many standard deviations a point may be off before the fit is repeated.
 const OFF: f64 = 20.0;
 
+/// The mean square of how many standard deviations a vertex and its first ring are off where the surface has a kink.
+const KINKED: f64 = 20.0;
+
+/// And of how many edge lengths they are off: that of a kink of 74° is far above this.
+const KINK: f64 = 1e-4;
+
 /// The square of the standard deviations at which weights have fallen to half.
 const HALF_WEIGHT: f64 = 9.0;
 
@@ -154,7 +160,11 @@ pub(super) struct Frame<V: Vector> {
 
 /// Puts a patch into its frame. `unit` is one over the vertex's mean edge length in the patch's units.
 #[inline(always)]
-pub(super) fn prepare<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V, heights: &mut Heights<'_, V>) -> Frame<V> {
+pub(super) fn prepare<V: Vector<Scalar = f64>>(
+    patch: &Patch<'_, V>,
+    unit: V,
+    heights: &mut Heights<'_, V>,
+) -> Frame<V> {
     let axes = frame(patch, unit);
     for row in 0..heights.len() {
         let point = if row == 0 || row > patch.len() {
@@ -315,8 +325,14 @@ fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinate
     };
     for first in (0..heights.len()).step_by(ROWS) {
         let rows = first..first + ROWS;
-        let (mut u, mut v, mut plain, mut back, mut twice, mut right) =
-            ([V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS], [V::zero(); ROWS]);
+        let (mut u, mut v, mut plain, mut back, mut twice, mut right) = (
+            [V::zero(); ROWS],
+            [V::zero(); ROWS],
+            [V::zero(); ROWS],
+            [V::zero(); ROWS],
+            [V::zero(); ROWS],
+            [V::zero(); ROWS],
+        );
         let mut right_back = right;
         for (row, index) in rows.enumerate() {
             let (height, weight) = (heights.w[index], heights.weight[index]);
@@ -401,12 +417,17 @@ fn residual<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinat
     heights.w[row] - height
 }
 
-/// `r² / variance` of a point; 0 in lanes that do not have it.
+/// `r² / variance` of a point, and `r²`; 0 in lanes that do not have it.
 #[inline(always)]
-fn misfit<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, setting: &Setting<V>, c: &[V; TERMS], row: usize) -> V {
+fn misfit<V: Vector<Scalar = f64>>(
+    heights: &Heights<'_, V>,
+    setting: &Setting<V>,
+    c: &[V; TERMS],
+    row: usize,
+) -> (V, V) {
     let r = residual(heights, setting.coordinates, c, row);
-    let misfit = r * r / variance(heights, setting, row);
-    V::select(V::constant(row as f64).lt(setting.count), misfit, V::zero())
+    let square = V::select(V::constant(row as f64).lt(setting.count), r * r, V::zero());
+    (square / variance(heights, setting, row), square)
 }
 
 impl<V: Vector<Scalar = f64>> Coefficients<V> {
@@ -529,10 +550,12 @@ pub(super) fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
 /// The variance that the best of three plain jets (degree 4 and 3 over two rings, 4 over three) leaves of a neighbourhood, each
 /// with the number of points more than coefficients.
 #[inline(always)]
-pub(super) fn plain_residuals<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, heights: &Heights<'_, V>) -> [(V, V); 3] {
-    let within = |rings: usize| {
-        move |row: usize| if row == 0 { V::one() } else { patch.weight_within(rings, row - 1) }
-    };
+pub(super) fn plain_residuals<V: Vector<Scalar = f64>>(
+    patch: &Patch<'_, V>,
+    heights: &Heights<'_, V>,
+) -> [(V, V); 3] {
+    let within =
+        |rings: usize| move |row: usize| if row == 0 { V::one() } else { patch.weight_within(rings, row - 1) };
     let (two, three) = (patch.len_within(2) + 1, patch.len_within(3) + 1);
     [
         plain_residual::<V, 15>(heights, two, within(2)),
@@ -553,8 +576,8 @@ pub(crate) struct AdaptiveJet<V: Vector> {
     pub trusted: V::Mask,
     /// Lanes in which a point is so far off that the fit should be repeated with lower weights for such.
     pub off: V::Mask,
-    /// The mean square of how many standard deviations the vertex and its first ring are off.
-    pub ring_misfit: V,
+    /// Lanes in which a smooth surface through the vertex and its first ring contradicts the model, and by no trifle.
+    pub kinked: V::Mask,
 }
 
 /// How adaptive jets are fitted.
@@ -635,17 +658,21 @@ impl AdaptiveFit<'_> {
         setting.slopes = slopes;
         weigh(heights, &setting);
         let mut found = solve(heights, &setting, self.freedom && !robust);
-        let mut worst = V::zero();
-        let mut ring_misfit = V::zero();
+        let (mut worst, mut all) = (V::zero(), V::zero());
+        let (mut ring_misfit, mut ring_squares) = (V::zero(), V::zero());
         for row in 0..=patch.len() {
-            let misfit = misfit(heights, &setting, &found.c, row);
+            let (misfit, square) = misfit(heights, &setting, &found.c, row);
             worst = misfit.max(worst);
+            all = all + misfit;
             if row <= patch.len_within(1) {
                 let near = if row == 0 { V::one() } else { patch.weight_within(1, row - 1) };
                 ring_misfit = ring_misfit + misfit * near;
+                ring_squares = ring_squares + square * near;
             }
         }
-        ring_misfit = ring_misfit / (patch.count_within(1) + V::one());
+        let typical = ((all - worst) / patch.count.max(V::one())).max(V::one());
+        let ring = patch.count_within(1) + V::one();
+        let kinked = (ring * V::constant(KINKED)).lt(ring_misfit).and((ring * V::constant(KINK)).lt(ring_squares));
         if robust {
             for _ in 0..REPETITIONS {
                 self.reweigh(heights, &setting, &found.c);
@@ -653,7 +680,7 @@ impl AdaptiveFit<'_> {
             }
             let mut off = V::zero();
             for row in 0..=patch.len() {
-                let misfit = misfit(heights, &setting, &found.c, row);
+                let (misfit, _) = misfit(heights, &setting, &found.c, row);
                 off = off + V::select(V::constant(HALF_WEIGHT).lt(misfit), V::one(), V::zero());
             }
             let noisy = (setting.count * V::constant(NOISY_PART)).lt(off);
@@ -694,8 +721,8 @@ impl AdaptiveFit<'_> {
             residual: (squares / weights).sqrt() * length,
             freedom: if self.freedom { found.freedom() } else { V::zero() },
             trusted: found.definite.and(inside),
-            off: V::constant(OFF).lt(worst),
-            ring_misfit,
+            off: (typical * V::constant(OFF)).lt(worst),
+            kinked,
         }
     }
 

@@ -44,7 +44,22 @@ pub struct AdaptiveModel {
 /// The least noise, in units of the edge length: a thousandth of what single precision leaves of a coordinate of that size.
 pub(super) const LEAST_NOISE: f64 = 1e-8;
 
+/// The fewest and the most rings that a fit asks for by itself.
+const LEAST_AUTOMATIC_RINGS: usize = 3;
+pub(super) const MOST_AUTOMATIC_RINGS: usize = 6;
+
+/// Points count to this many times the distance where what the polynomial leaves out is as large as the noise: there their weight has
+/// fallen to a hundredth.
+const REACH: f64 = 1.6;
+
 impl AdaptiveModel {
+    /// How many rings a fit reaches.
+    pub(crate) fn rings(&self) -> usize {
+        let ratio = self.noise / self.edge_length / self.sizes[3];
+        let most = MOST_AUTOMATIC_RINGS;
+        (LEAST_AUTOMATIC_RINGS..most).find(|&rings| ratio * REACH.powi(5) <= (rings as f64).powi(5)).unwrap_or(most)
+    }
+
     /// What is used of a mesh without any edge, where nothing can be learned.
     pub(super) const UNKNOWN: AdaptiveModel = AdaptiveModel {
         edge_length: 1.0,

@@ -17,7 +17,7 @@
 //! neither on lanes and threads nor on the system. Cost: 18 fits a sample vertex, at most seven times that.
 
 use super::adaptive_jet::{Frame, Heights, Setting, plain_residuals, prepare, scratch, solve, weigh};
-use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE};
+use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE, MOST_AUTOMATIC_RINGS};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Task, Vector, Width, as_lanes, dispatch};
@@ -56,22 +56,41 @@ pub(crate) struct Surroundings {
     pub normals: Vec<[f64; 3]>,
     /// The mean length of each vertex's edges, those of its faces at the vertex.
     pub edge_lengths: Vec<f64>,
-    /// Whether a face of the vertex is more than 37° from its normal.
-    pub sharp: Vec<u8>,
+    /// [`Surroundings::SHARP`] and [`Surroundings::SPIKE`].
+    pub marks: Vec<u8>,
 }
 
 impl Surroundings {
+    /// A face of the vertex is more than 37° from its normal.
+    pub const SHARP: u8 = 1;
+    /// The vertex stands out of its neighbours: it is no use to fits around others.
+    pub const SPIKE: u8 = 2;
+
+    /// Whether a vertex may be on a crease.
+    pub fn is_sharp(&self, vertex: usize) -> bool {
+        self.marks[vertex] == Self::SHARP
+    }
+
     /// Fills `chosen` with the neighbours on the same side of any crease.
     #[inline(always)]
     pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
         let own = DVec3::from(self.normals[vertex as usize]);
-        let counts = self.choose_beyond(own, found, if self.sharp[vertex as usize] != 0 { 1 } else { 0 }, chosen);
-        if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, chosen) } else { counts }
+        let rings = self.is_sharp(vertex as usize) as usize;
+        let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
+        if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
     }
 
-    /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1.
+    /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1, but for vertices with one of the `unwanted`
+    /// marks.
     #[inline(always)]
-    fn choose_beyond(&self, own: DVec3, found: &Neighbourhood, rings: usize, chosen: &mut [u32]) -> Counts {
+    fn choose_beyond(
+        &self,
+        own: DVec3,
+        found: &Neighbourhood,
+        rings: usize,
+        unwanted: u8,
+        chosen: &mut [u32],
+    ) -> Counts {
         let mut counts = found.counts_within();
         let mut count = 0;
         let mut first = 0;
@@ -80,7 +99,8 @@ impl Surroundings {
             for &neighbour in &found.vertices()[first..last] {
                 chosen[count] = neighbour;
                 let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
-                count += (near || ring < rings) as usize;
+                let wanted = self.marks[neighbour as usize] & unwanted == 0;
+                count += ((near || ring < rings) && wanted) as usize;
             }
             counts[ring] = count as u32;
             first = last;
@@ -92,7 +112,7 @@ impl Surroundings {
     fn is_clean(&self, vertex: u32, topology: &Topology, neighbourhood: &mut Neighbourhood) -> bool {
         let own = DVec3::from(self.normals[vertex as usize]);
         let near = |&neighbour: &u32| own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
-        self.sharp[vertex as usize] == 0 && neighbourhood.gather(topology, vertex, 2).iter().all(near)
+        self.marks[vertex as usize] == 0 && neighbourhood.gather(topology, vertex, 2).iter().all(near)
     }
 }
 
@@ -104,7 +124,6 @@ pub(crate) fn learn(
     topology: &Topology,
     points: &Points<'_>,
     around: &Surroundings,
-    rings: usize,
     run: &mut Run<'_>,
 ) -> Result<AdaptiveModel, Error> {
     let known = |vertex: usize| around.normals[vertex] != [0.0; 3] && around.edge_lengths[vertex] > 0.0;
@@ -122,15 +141,12 @@ pub(crate) fn learn(
         .filter(|&vertex| known(vertex))
         .map(|vertex| vertex as u32)
         .collect();
-    let clean: Vec<u32> = candidates
-        .iter()
-        .copied()
-        .filter(|&vertex| around.is_clean(vertex, topology, &mut neighbourhood))
-        .collect();
+    let clean: Vec<u32> =
+        candidates.iter().copied().filter(|&vertex| around.is_clean(vertex, topology, &mut neighbourhood)).collect();
     let candidates = if clean.len() < FEW_SAMPLED { candidates } else { clean };
     let list: Vec<u32> = spaced(candidates.len(), MOST_SAMPLED).map(|index| candidates[index]).collect();
 
-    let collector = Collector { around, edge_length, rings, samples: Mutex::new(Vec::new()) };
+    let collector = Collector { around, edge_length, samples: Mutex::new(Vec::new()) };
     run.part_for(Some(&list), 0.0, 0.5, |mut run| sweep_patches(topology, points, &mut run, &collector))?;
     let mut samples = collector.samples.into_inner().unwrap_or_else(PoisonError::into_inner);
     // Neighbourhoods of one size share a row of lanes.
@@ -183,7 +199,6 @@ struct Sample {
 struct Collector<'a> {
     around: &'a Surroundings,
     edge_length: f64,
-    rings: usize,
     samples: Mutex<Vec<Sample>>,
 }
 
@@ -196,7 +211,8 @@ impl Collector<'_> {
         let unit = V::one() / (V::from_lanes(&lanes) * scale);
         let heights = &mut Heights::new(scratch, super::adaptive_jet::rows(patch.len()));
         let Frame { slopes, .. } = prepare(patch, unit, heights);
-        let plain = plain_residuals(patch, heights).map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
+        let plain =
+            plain_residuals(patch, heights).map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
         let (counts, slopes) = (patch.count.to_lanes(), slopes.map(V::to_lanes));
         for (lane, &vertex) in vertices.iter().enumerate() {
             let rows = 0..counts[lane] as usize + 1;
@@ -214,7 +230,8 @@ impl Collector<'_> {
                 slopes: [slopes[0][lane], slopes[1][lane]],
                 plain: plain.map(|(squares, freedom)| (squares[lane], freedom[lane])),
             };
-            let all_finite = [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());
+            let all_finite =
+                [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());
             if all_finite {
                 self.samples.lock().unwrap_or_else(PoisonError::into_inner).push(sample);
             }
@@ -224,7 +241,7 @@ impl Collector<'_> {
 
 impl PatchQuantity for Collector<'_> {
     fn rings(&self) -> usize {
-        self.rings
+        MOST_AUTOMATIC_RINGS
     }
     fn least(&self) -> usize {
         0

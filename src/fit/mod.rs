@@ -9,8 +9,8 @@ mod learning;
 mod least_squares;
 mod surface;
 
-pub use adaptive_model::{AdaptiveModel, Coordinates};
 pub(crate) use adaptive_jet::{AdaptiveFit, AdaptiveJet};
+pub use adaptive_model::{AdaptiveModel, Coordinates};
 pub(crate) use jet::Jet;
 pub(crate) use learning::{Surroundings, learn};
 pub(crate) use least_squares::{condition, solve};

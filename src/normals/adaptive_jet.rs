@@ -4,8 +4,7 @@
 //! no model is given, what the mesh teaches, then the fits, and at last the vertices on creases.
 //!
 //! **Creases.** A vertex with a face more than 37° from its normal is on a crease if a smooth surface through its ring
-//! contradicts what was learned of noise and smoothness: if the mean square of how many standard deviations vertex and ring are
-//! off is more than [`CREASED`]. Then nothing is fitted there: its normal is the mean direction of the sides of the crease
+//! contradicts what was learned of noise and smoothness ([`AdaptiveJet::kinked`]). Then nothing is fitted there: its normal is the mean direction of the sides of the crease
 //! (`surroundings.rs`), curvatures are those of sections, and the status says crease. Everywhere else neighbours beyond a crease do not
 //! count, since their normals are more than 60° away.
 //!
@@ -27,18 +26,12 @@ use crate::view::{Points, StatusOutput, zeroed};
 /// How an adaptive jet is fitted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AdaptiveOptions {
-    /// The rings of neighbours that it is fitted to, at most 8; 0 for 4. With 3 it costs about half and is as good on clean
-    /// meshes.
+    /// The rings of neighbours that it is fitted to, at most 8; 0 for as many as the noise asks for, 3 to 6. What is further away
+    /// than the fit reaches has next to no weight, so more rings cost time but no accuracy.
     pub rings: u8,
     /// What is known of the mesh; learned from it if there is none.
     pub model: Option<AdaptiveModel>,
 }
-
-/// The rings if none are asked for.
-const DEFAULT_RINGS: usize = 4;
-
-/// See the top of this file.
-const CREASED: f64 = 20.0;
 
 /// Where the results of adaptive jets go.
 pub(crate) trait Sink: Sync {
@@ -57,34 +50,16 @@ pub(crate) trait Sink: Sync {
     fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error>;
 }
 
-/// The rings that are asked for.
-///
-/// # Errors
-/// [`Error::OptionOutOfRange`]
-pub(crate) fn adaptive_rings(rings: usize) -> Result<usize, Error> {
-    match rings {
-        0 => Ok(DEFAULT_RINGS),
-        rings if rings > MOST_RINGS => Err(Error::OptionOutOfRange { what: "options.rings" }),
-        rings => Ok(rings),
-    }
-}
-
 /// Learns what adaptive jets use of a mesh, from a sample of all its vertices; `run.vertices` is not looked at.
 ///
 /// Handed to calls in [`AdaptiveOptions::model`], it gives the same bits as calls that learn it themselves.
 ///
 /// # Errors
-/// [`Error::OptionOutOfRange`] for more than 8 rings; [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`];
+/// [`Error::Size`] where counts do not fit; [`Error::NonFinitePosition`];
 /// [`Error::Cancelled`]; [`Error::OutOfMemory`].
-pub fn learn_model(
-    topology: &Topology,
-    points: &Points<'_>,
-    rings: usize,
-    mut run: Run<'_>,
-) -> Result<AdaptiveModel, Error> {
-    let rings = adaptive_rings(rings)?;
+pub fn learn_model(topology: &Topology, points: &Points<'_>, mut run: Run<'_>) -> Result<AdaptiveModel, Error> {
     let around = run.part_for(None, 0.0, 0.5, |mut run| surroundings(topology, points, &mut run))?;
-    run.part_for(None, 0.5, 1.0, |mut run| learn(topology, points, &around, rings, &mut run))
+    run.part_for(None, 0.5, 1.0, |mut run| learn(topology, points, &around, &mut run))
 }
 
 /// Fits adaptive jets to the vertices of `run`.
@@ -98,19 +73,22 @@ pub(crate) fn adaptive_jets<S: Sink>(
     mut run: Run<'_>,
     sink: &S,
 ) -> Result<(), Error> {
-    let rings = adaptive_rings(options.rings as usize)?;
+    if options.rings as usize > MOST_RINGS {
+        return Err(Error::OptionOutOfRange { what: "options.rings" });
+    }
+    let rings_of = |model: &AdaptiveModel| if options.rings == 0 { model.rings() } else { options.rings as usize };
     if let Some(model) = &options.model {
         model.check()?;
     }
     // Without a model every ring is looked at.
     let list = match (run.vertices, &options.model) {
-        (Some(vertices), Some(_)) => Some(closure(topology, vertices, rings)?),
+        (Some(vertices), Some(model)) => Some(closure(topology, vertices, rings_of(model))?),
         _ => None,
     };
     let mut around = run.part_for(list.as_deref(), 0.0, 0.05, |mut run| surroundings(topology, points, &mut run))?;
     let model = match options.model {
         Some(model) => model,
-        None => run.part_for(None, 0.05, 0.1, |mut run| learn(topology, points, &around, rings, &mut run))?,
+        None => run.part_for(None, 0.05, 0.1, |mut run| learn(topology, points, &around, &mut run))?,
     };
     let mut noise = Vec::new();
     if model.noise_exponent > 0 {
@@ -121,7 +99,7 @@ pub(crate) fn adaptive_jets<S: Sink>(
     let quantity = Jets {
         fit: AdaptiveFit {
             model,
-            rings,
+            rings: rings_of(&model),
             edge_lengths: &around.edge_lengths,
             noise: (model.noise_exponent > 0).then_some(&noise),
             freedom: sink.freedom(),
@@ -186,10 +164,10 @@ impl<S: Sink> PatchQuantity for Jets<'_, S> {
         let jet = self.fit.lanes(vertices, patch, scale, attempt > 0, scratch);
         let all = (1u32 << vertices.len()) - 1;
         let known = jet.trusted.and(V::zero().lt(patch.normal.squared())).bits() & all;
-        let mut creases = known & V::constant(CREASED).lt(jet.ring_misfit).bits();
+        let mut creases = known & jet.kinked.bits();
         for (lane, &vertex) in vertices.iter().enumerate() {
             if creases & 1 << lane != 0 {
-                if self.around.sharp[vertex as usize] != 0 {
+                if self.around.is_sharp(vertex as usize) {
                     self.creased.write(vertex as usize, 1);
                 } else {
                     creases &= !(1 << lane);

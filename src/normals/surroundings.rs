@@ -20,6 +20,10 @@ use crate::view::{Output, Points, ScalarOutput, StatusOutput, zeroed};
 /// The cosine of 37°.
 const NEAR: f64 = 0.8;
 
+/// A vertex that stands out of the mean of its neighbours along its normal by more than this part of its mean edge length is a
+/// spike: more than the corner of a tetrahedron (0.82).
+const SPIKE: f64 = 0.85;
+
 /// Pieces whose unit normals cancel to less than this have no mean direction.
 const CANCELLED: f64 = 0.2;
 
@@ -33,21 +37,28 @@ pub(super) fn surroundings(
     run: &mut Run<'_>,
 ) -> Result<Surroundings, Error> {
     let count = topology.vertex_count();
-    let mut found =
-        Surroundings { normals: zeroed(count)?, edge_lengths: zeroed(count)?, sharp: zeroed(count)? };
+    let mut found = Surroundings { normals: zeroed(count)?, edge_lengths: zeroed(count)?, marks: zeroed(count)? };
     let quantity = Look {
         normal: found.normals.as_mut_slice().into(),
         edge_length: found.edge_lengths.as_mut_slice().into(),
-        sharp: found.sharp.as_mut_slice().into(),
+        marks: found.marks.as_mut_slice().into(),
     };
     sweep(topology, points, run, true, &quantity)?;
+    // What is sharp because of a spike next to it is no crease.
+    for vertex in 0..count {
+        if found.marks[vertex] & Surroundings::SPIKE != 0 {
+            for &neighbour in topology.ring(vertex) {
+                found.marks[neighbour as usize] &= !Surroundings::SHARP;
+            }
+        }
+    }
     Ok(found)
 }
 
 struct Look<'a> {
     normal: Output<'a>,
     edge_length: ScalarOutput<'a>,
-    sharp: StatusOutput<'a>,
+    marks: StatusOutput<'a>,
 }
 
 /// The unit normal of a corner's face; zero where it has none.
@@ -56,20 +67,50 @@ fn unit<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> Vector3<V> {
     corner.direction() * corner.unit()
 }
 
-/// The sum of the mean lengths of the corners' two edges, and the smallest cosine of a face and `normal`.
-#[inline(always)]
-fn look<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, normal: Vector3<V>) -> (V, V) {
-    let (mut lengths, mut least) = (V::zero(), V::one());
-    let mut before = ring.squared[0].sqrt();
-    for index in 0..ring.corner_count() {
-        let after = ring.squared[index + 1].sqrt();
-        lengths = lengths + (before + after) * V::constant(0.5);
-        before = after;
-        let unit = unit(&ring.corner(index));
-        let there = V::zero().lt(unit.squared());
-        least = V::select(there, unit.dot(normal), V::one()).min(least);
+/// What is added up over the corners of all fans.
+#[derive(Clone, Copy)]
+struct Sums<V> {
+    /// The mean lengths of the two edges.
+    lengths: V,
+    /// Half of both edges, along the normal.
+    heights: V,
+    /// The smallest cosine of a face and the normal.
+    least: V,
+}
+
+impl<V: Vector> Sums<V> {
+    fn new() -> Self {
+        Sums { lengths: V::zero(), heights: V::zero(), least: V::one() }
     }
-    (lengths, least)
+
+    #[inline(always)]
+    fn add<F: RingFaces<V>>(&mut self, ring: &Ring<'_, V, F>, normal: Vector3<V>) {
+        let half = V::constant(0.5);
+        let mut before = (ring.squared[0].sqrt(), ring.edges[0].dot(normal));
+        for index in 0..ring.corner_count() {
+            let after = (ring.squared[index + 1].sqrt(), ring.edges[index + 1].dot(normal));
+            self.lengths = self.lengths + (before.0 + after.0) * half;
+            self.heights = self.heights + (before.1 + after.1) * half;
+            before = after;
+            let unit = unit(&ring.corner(index));
+            let there = V::zero().lt(unit.squared());
+            self.least = V::select(there, unit.dot(normal), V::one()).min(self.least);
+        }
+    }
+
+    /// Bits of lanes that are sharp, and of those that are spikes.
+    #[inline(always)]
+    fn marks(&self) -> (u32, u32) {
+        let spike = (self.lengths * V::constant(SPIKE)).lt(self.heights.abs());
+        (self.least.lt(V::constant(NEAR)).bits(), spike.bits())
+    }
+}
+
+/// The marks of a lane.
+#[inline(always)]
+fn mark((sharp, spike): (u32, u32), lane: usize) -> u8 {
+    let bit = |bits: u32, mark: u8| if bits & 1 << lane != 0 { mark } else { 0 };
+    bit(sharp, Surroundings::SHARP) | bit(spike, Surroundings::SPIKE)
 }
 
 impl Quantity for Look<'_> {
@@ -86,16 +127,16 @@ impl Quantity for Look<'_> {
         let sum = Max::sum(ring, scratch);
         let (trusted, squared) = sum.trusted();
         let (trusted, normal) = (trusted.bits(), sum.vector.divided_by(squared.sqrt()));
-        let (lengths, least) = look(ring, normal);
-        let length = lengths * V::constant(1.0 / ring.corner_count() as f64) / scale;
-        let sharp = least.lt(V::constant(NEAR)).bits();
+        let mut sums = Sums::new();
+        sums.add(ring, normal);
+        let length = (sums.lengths * V::constant(1.0 / ring.corner_count() as f64) / scale).to_lanes();
+        let marks = sums.marks();
         let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
-        let length = length.to_lanes();
         for (lane, &vertex) in vertices.iter().enumerate() {
             if trusted & 1 << lane != 0 {
                 self.normal.write(vertex as usize, axes.map(|axis| axis[lane].into()));
                 self.edge_length.write(vertex as usize, [length[lane].into()]);
-                self.sharp.write(vertex as usize, (sharp >> lane & 1) as u8);
+                self.marks.write(vertex as usize, mark(marks, lane));
             }
         }
         !trusted & ((1u32 << vertices.len()) - 1)
@@ -109,16 +150,15 @@ impl Quantity for Look<'_> {
         scratch: &mut Scratch<'_, f64>,
     ) {
         let Some((normal, ..)) = with_fallback::<Max, F>(fans, scale, scratch) else { return };
-        let (mut lengths, mut corners, mut least) = (0.0, 0, 1.0f64);
+        let mut sums = Sums::<f64>::new();
+        let mut corners = 0;
         for ring in fans.rings() {
-            let (more, cosine) = look(&ring, Vector3 { x: normal[0], y: normal[1], z: normal[2] });
-            lengths += more;
+            sums.add(&ring, Vector3 { x: normal[0], y: normal[1], z: normal[2] });
             corners += ring.corner_count();
-            least = least.min(cosine);
         }
         self.normal.write(vertex, normal);
-        self.edge_length.write(vertex, [lengths / corners.max(1) as f64 / scale]);
-        self.sharp.write(vertex, (least < NEAR) as u8);
+        self.edge_length.write(vertex, [sums.lengths / corners.max(1) as f64 / scale]);
+        self.marks.write(vertex, mark(sums.marks(), 0));
     }
 
     fn isolated(&self, _vertex: usize) {}
