@@ -104,6 +104,12 @@
 #define UMB_VERTEX_WIDENED 64
 
 /**
+ * The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its curvatures
+ * are those of sections. Set by adaptive jets only.
+ */
+#define UMB_VERTEX_CREASE 128
+
+/**
  * Bit of a section's status: the plane meets the ring on one side of the vertex only; its mirror image stands in for the
  * other.
  */
@@ -419,6 +425,63 @@ typedef struct umb_run {
 } umb_run;
 
 /**
+ * The coordinates in which an adaptive jet writes the surface near a vertex: a `UMB_COORDINATES_` constant.
+ */
+typedef uint32_t umb_coordinates;
+
+/**
+ * What adaptive jets know of a mesh before they look at a vertex: how noisy its positions are and how smooth its surface.
+ *
+ * `umb_learn_model` fills it, and `model` of `umb_normal_options`, `umb_curvature_options` and `umb_section_options` hands it in.
+ * A call without model learns its own from all positions of the mesh, with the same bits as result; given the same model, a list
+ * of vertices, a part of the mesh or a later frame of it is fitted alike, and a list costs no more than its vertices.
+ */
+typedef struct umb_adaptive_model {
+  /**
+   * `sizeof(umb_adaptive_model)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * The coordinates that describe the sample better.
+   */
+  umb_coordinates coordinates;
+  /**
+   * The median over the vertices of the mean length of a vertex's edges, in the mesh's unit; above 0.
+   */
+  double edge_length;
+  /**
+   * The standard deviation of the positions along the normal that is not the surface's, in the mesh's unit; above 0.
+   */
+  double noise;
+  /**
+   * The root mean square size of the surface's Taylor coefficients of degrees 2, 3 and 4, and of what lies beyond, for
+   * lengths in units of `edge_length`; above 0.
+   */
+  double sizes[4];
+  /**
+   * A vertex's noise is `noise` times its own mean edge length, in units of `edge_length`, to this power: 0 to 2.
+   */
+  uint32_t noise_exponent;
+  /**
+   * 1 if `sizes` are understood in units of the vertex's own mean edge length, 0 if in those of `edge_length`.
+   */
+  uint32_t size_exponent;
+  /**
+   * The mean logarithm of the evidence of a sample vertex for heights and for circles, each with its own best numbers:
+   * larger is better; 0 where it was not looked at. Not read.
+   */
+  double evidence[2];
+  /**
+   * How many vertices it was learned from; 0 if there were none to learn from. Not read.
+   */
+  uint32_t sample;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+} umb_adaptive_model;
+
+/**
  * Which vertex normals to compute, and how. All zero: N_CM at all vertices.
  */
 typedef struct umb_normal_options {
@@ -439,11 +502,17 @@ typedef struct umb_normal_options {
    */
   uint32_t degree;
   /**
-   * `UMB_WEIGHT_JET` only: the rings of neighbours that the polynomial is fitted to, at most 8; 0 for 1 at degree 1, 2 at
-   * degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more
-   * than 255 vertices are used. Other weights do not look at it.
+   * Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands for 4 for `UMB_WEIGHT_ADAPTIVE_JET`
+   * (3 costs about half, and is as good on clean meshes), and for `UMB_WEIGHT_JET` for 1 at degree 1, 2 at degrees 2 and 3,
+   * and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
+   * used. Other weights do not look at it.
    */
   uint32_t rings;
+  /**
+   * `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh; null to learn it from all positions. Other weights do not look at
+   * it.
+   */
+  const struct umb_adaptive_model *model;
 } umb_normal_options;
 
 /**
@@ -566,8 +635,10 @@ typedef struct umb_face_outputs {
  *
  * | method                       | k1 k2, shape index, curvedness | directions | H, H N | K | area | integrals | residual | condition |
  * |------------------------------|---|---|---|---|---|-------|-----------|---|
+ * | ADAPTIVE_JET                 | x | x | x | x |   |       | length    | degrees of freedom |
  * | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
  * | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
+ * | TILTED_SECTIONS              | x | x | x | x |   |       |           |   |
  * | TAUBIN, RUSINKIEWICZ         | x | x | x | x |   |       |           |   |
  * | WATANABE                     | x |   | x | x |   |       |           |   |
  * | MEYER                        | x |   | x | x | x | H, K  |           |   |
@@ -588,7 +659,7 @@ typedef uint32_t umb_curvature_method;
 typedef uint32_t umb_section;
 
 /**
- * Which curvatures to compute, and how. All zero: jets of degree 3 over two rings, at all vertices.
+ * Which curvatures to compute, and how. All zero: adaptive jets over four rings, at all vertices.
  */
 typedef struct umb_curvature_options {
   /**
@@ -628,9 +699,13 @@ typedef struct umb_curvature_options {
    */
   uint32_t normal_degree;
   /**
-   * `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+   * `UMB_WEIGHT_JET` and `UMB_WEIGHT_ADAPTIVE_JET` only: see `rings` of `umb_normal_options`.
    */
   uint32_t normal_rings;
+  /**
+   * What adaptive jets, as method or as weight, know of the mesh; null to learn it from all positions.
+   */
+  const struct umb_adaptive_model *model;
   /**
    * Vertex normals of the caller's, `#V x 3`, of any length, on the side from which the faces run counter-clockwise: those
    * on the other change the signs of some methods and leave others without result. A vertex whose normal is zero has no
@@ -716,6 +791,10 @@ typedef struct umb_curvature_outputs {
    */
   struct umb_output condition;
   /**
+   * How many of the 15 coefficients of an adaptive jet the data decide, and not the prior, `#V`; 0 where nothing was fitted.
+   */
+  struct umb_output degrees_of_freedom;
+  /**
    * The unit normals that all this belongs to, `#V x 3`.
    */
   struct umb_output normal;
@@ -760,9 +839,13 @@ typedef struct umb_section_options {
    */
   uint32_t normal_degree;
   /**
-   * `UMB_WEIGHT_JET` only: see `rings` of `umb_normal_options`.
+   * `UMB_WEIGHT_JET` and `UMB_WEIGHT_ADAPTIVE_JET` only: see `rings` of `umb_normal_options`.
    */
   uint32_t normal_rings;
+  /**
+   * `UMB_WEIGHT_ADAPTIVE_JET` only: see `model` of `umb_normal_options`.
+   */
+  const struct umb_adaptive_model *model;
   /**
    * How to run.
    */
@@ -1026,6 +1109,17 @@ typedef struct umb_polyline_outputs {
 #define UMB_SIMD_AVX512 4
 
 /**
+ * Heights over the tangent plane.
+ */
+#define UMB_COORDINATES_HEIGHT 0
+
+/**
+ * Heights over the distance from the vertex, in the direction of its projection to the tangent plane: spheres are then exactly
+ * quadratic.
+ */
+#define UMB_COORDINATES_CIRCLE 1
+
+/**
  * N_CM of "New Computation of Normal Vector and Curvature": a conformal map of the ring and mean value coordinates.
  * Edge normals unit(N_(i-1) + N_i) with weights (tan(alpha_(i-1)/2) + tan(alpha_i/2)) / (length of the edge), where alpha_i
  * is 2 pi theta_i / (sum of theta) in a closed fan and theta_i in an open one, held just below pi; beyond the ends of an open
@@ -1088,26 +1182,58 @@ typedef struct umb_polyline_outputs {
 #define UMB_WEIGHT_JET 10
 
 /**
+ * No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
+ * follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
+ * library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
+ * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE`) has the mean direction of its sides. See `rings` and `model` of
+ * `umb_normal_options`.
+ */
+#define UMB_WEIGHT_ADAPTIVE_JET 11
+
+/**
+ * Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator (one 5 x 5 solve). Exact
+ * where the vertex and its neighbours lie on a sphere; the most accurate normal of one ring on smooth surfaces with little noise.
+ */
+#define UMB_WEIGHT_TILTED_SECTIONS 12
+
+/**
+ * Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 4) rings, whose weights and prior follow from
+ * the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
+ * surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
+ * Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
+ * so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE`) has the curvatures that fit the circles along its edges
+ * best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+ */
+#define UMB_CURVATURE_ADAPTIVE_JET 0
+
+/**
  * Osculating jets (Cazals and Pouget 2005): a polynomial height field over several rings, over the plane of least squares of
  * its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
- * 3 at degree 4). Of order degree - 1 on meshes of any kind: the default. Where points are too few or in special position
+ * 3 at degree 4). Of order degree - 1 on meshes of any kind. Where points are too few or in special position
  * the neighbourhood is widened (`UMB_VERTEX_WIDENED`), then the degree lowered, then curvatures are 0
  * (`UMB_VERTEX_FALLBACK`). Its `normal` is the fitted surface's. `normals`, if given, tell its sides apart, else area-weighted
  * ones do; `weight` is not looked at.
  */
-#define UMB_CURVATURE_JET 0
+#define UMB_CURVATURE_JET 1
 
 /**
  * A quadratic height field in the frame of the vertex normal, tangent to its plane (Hamann 1993). `rings` at most 8 (0: 1);
  * widened as jets are. As good as the normals.
  */
-#define UMB_CURVATURE_QUADRIC 1
+#define UMB_CURVATURE_QUADRIC 2
 
 /**
  * Goldfeather and Interrante 2004: a cubic height field fitted to positions and normals of the neighbours. `rings` at most 8
  * (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
  */
-#define UMB_CURVATURE_GOLDFEATHER 2
+#define UMB_CURVATURE_GOLDFEATHER 3
+
+/**
+ * The sections (circles) along all edges of one ring, with a tilt of Max's normal (or of the given `normals`; `weight` is not looked
+ * at): one 5 x 5 solve for the shape operator and the tilt, whose result is `normal`. Exact on spheres; the most accurate curvature of
+ * one ring on smooth surfaces with little noise.
+ */
+#define UMB_CURVATURE_TILTED_SECTIONS 4
 
 /**
  * The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
@@ -1115,26 +1241,26 @@ typedef struct umb_polyline_outputs {
  * degree of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
  * (`UMB_VERTEX_FALLBACK`). Does not converge with one-ring normals on irregular meshes.
  */
-#define UMB_CURVATURE_LEAST_SQUARES 3
+#define UMB_CURVATURE_LEAST_SQUARES 5
 
 /**
  * Taubin 1995: k = 3 m1 - m2, 3 m2 - m1 for the eigenvalues m of the sum of w kappa T T^T over the edges, w the area of the
  * faces at an edge. Does not converge, unless the edges stand at even angles.
  */
-#define UMB_CURVATURE_TAUBIN 4
+#define UMB_CURVATURE_TAUBIN 6
 
 /**
  * Watanabe and Belyaev 2001: H and (3 H^2 - K)/2 as the means of sectional curvature and of its square, by the trapezoid rule
  * over the angles of the faces. Does not converge, unless the edges stand at even angles.
  */
-#define UMB_CURVATURE_WATANABE 5
+#define UMB_CURVATURE_WATANABE 7
 
 /**
  * Meyer et al. 2003: H N by cotangents, K by the angle defect, both over the mixed Voronoi area (in polygons: by the
  * Laplacian of Alexa and Wardetzky 2011, over an equal share of the area for each corner). At a boundary the integrals
  * hold the pull and the turning of the boundary. Does not converge on irregular meshes.
  */
-#define UMB_CURVATURE_MEYER 6
+#define UMB_CURVATURE_MEYER 8
 
 /**
  * The angle defect of Gauss and Bonnet: 2 pi less the angles of a closed fan, pi less those of an open one; fans add up.
@@ -1142,27 +1268,27 @@ typedef struct umb_polyline_outputs {
  * end them, to that of the surface cut open there. Without area the pointwise K is 0 (`UMB_VERTEX_FALLBACK`) and the integral
  * stands. Takes no normals.
  */
-#define UMB_CURVATURE_ANGLE_DEFECT 7
+#define UMB_CURVATURE_ANGLE_DEFECT 9
 
 /**
  * Rusinkiewicz 2004: shape operators of faces from the differences of vertex normals, averaged by mixed area. Converges if
  * the normals are better than first order.
  */
-#define UMB_CURVATURE_RUSINKIEWICZ 8
+#define UMB_CURVATURE_RUSINKIEWICZ 10
 
 /**
  * The normal cycle (Cohen-Steiner and Morvan 2003): dihedral angles along edges, over a region of `rings` (0: 1) or of
  * `radius`. Edges of a single face have none, so values at a boundary are too small, and so are those on polygons that are
  * not flat, whose twist no edge has. Converges over balls that shrink more slowly than the edges.
  */
-#define UMB_CURVATURE_NORMAL_CYCLE 9
+#define UMB_CURVATURE_NORMAL_CYCLE 11
 
 /**
  * Interpolated corrected curvature measures (Lachaud, Romon, Thibert and Coeurjolly 2020), over a region of `rings` (0: 1) or
  * of `radius`. Converges if the normals do; exact on spheres with exact normals. H and K are the measures by the area; k1,
  * k2 and the directions come from the tensor, so k1 k2 is K only in the limit.
  */
-#define UMB_CURVATURE_CORRECTED_MEASURE 10
+#define UMB_CURVATURE_CORRECTED_MEASURE 12
 
 /**
  * The symmetric parabola, kappa_SP: 4 cos(phi/2) / ((|a| + |c|) sin^2(phi/2)), or -2 N.x / |x - (N.x) N|^2. It grows
@@ -1355,6 +1481,26 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
                             size_t index,
                             struct umb_fan *fan,
                             struct umb_error *error);
+
+/**
+ * Learns what adaptive jets use of a mesh, from a sample of all its vertices.
+ *
+ * @param topology the handle
+ * @param points the positions of all its vertices; read only during the call
+ * @param options of which only `run` counts, and of that not `vertices`; may be null
+ * @param model receives the numbers; set its `struct_size` (or 0) before
+ * @param error may be null
+ *
+ * Errors: as `umb_vertex_normals`. Threads, bits: likewise.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_learn_model(const struct umb_topology *topology,
+                           const struct umb_points *points,
+                           const struct umb_normal_options *options,
+                           struct umb_adaptive_model *model,
+                           struct umb_error *error);
 
 /**
  * Computes vertex normals over the one-rings of a topology, or, for jets, over several rings.

@@ -20,6 +20,7 @@ use std::mem::offset_of;
 /// | ADAPTIVE_JET                 | x | x | x | x |   |       | length    | degrees of freedom |
 /// | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
 /// | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
+/// | TILTED_SECTIONS              | x | x | x | x |   |       |           |   |
 /// | TAUBIN, RUSINKIEWICZ         | x | x | x | x |   |       |           |   |
 /// | WATANABE                     | x |   | x | x |   |       |           |   |
 /// | MEYER                        | x |   | x | x | x | H, K  |           |   |
@@ -49,6 +50,10 @@ pub const UMB_CURVATURE_QUADRIC: umb_curvature_method = 2;
 /// Goldfeather and Interrante 2004: a cubic height field fitted to positions and normals of the neighbours. `rings` at most 8
 /// (0: 1); widened as jets are. As good as the normals, which it needs of up to four rings more than it was asked for.
 pub const UMB_CURVATURE_GOLDFEATHER: umb_curvature_method = 3;
+/// The sections (circles) along all edges of one ring, with a tilt of Max's normal (or of the given `normals`; `weight` is not looked
+/// at): one 5 x 5 solve for the shape operator and the tilt, whose result is `normal`. Exact on spheres; the most accurate curvature of
+/// one ring on smooth surfaces with little noise.
+pub const UMB_CURVATURE_TILTED_SECTIONS: umb_curvature_method = 4;
 /// The shape operator whose normal curvatures fit those of the sections along all edges best, in least squares. With
 /// `UMB_SECTION_CIRCLE` and exact normals exact on spheres. Where the edges leave a part of it undetermined (within about a
 /// degree of two perpendicular lines, as in a grid of quads), the point is taken to be as round as they allow
@@ -272,6 +277,7 @@ fn method(value: umb_curvature_method) -> Result<Method, Error> {
         UMB_CURVATURE_JET => Method::Jet,
         UMB_CURVATURE_QUADRIC => Method::Quadric,
         UMB_CURVATURE_GOLDFEATHER => Method::Goldfeather,
+        UMB_CURVATURE_TILTED_SECTIONS => Method::TiltedSections,
         UMB_CURVATURE_LEAST_SQUARES => Method::LeastSquares,
         UMB_CURVATURE_TAUBIN => Method::Taubin,
         UMB_CURVATURE_WATANABE => Method::Watanabe,

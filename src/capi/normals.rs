@@ -53,6 +53,9 @@ pub const UMB_WEIGHT_JET: umb_weight = 10;
 /// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE`) has the mean direction of its sides. See `rings` and `model` of
 /// `umb_normal_options`.
 pub const UMB_WEIGHT_ADAPTIVE_JET: umb_weight = 11;
+/// Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator (one 5 x 5 solve). Exact
+/// where the vertex and its neighbours lie on a sphere; the most accurate normal of one ring on smooth surfaces with little noise.
+pub const UMB_WEIGHT_TILTED_SECTIONS: umb_weight = 12;
 
 /// Which vertex normals to compute, and how. All zero: N_CM at all vertices.
 #[repr(C)]
@@ -316,6 +319,7 @@ impl AskedWeight {
                 let model = unsafe { model_given(self.model) }?;
                 Weight::AdaptiveJet(AdaptiveOptions { rings: small(self.rings)?, model })
             }
+            UMB_WEIGHT_TILTED_SECTIONS => Weight::TiltedSections,
             value => return Err(Error::UnknownConstant { what: "options.weight", value: value as u64 }),
         })
     }

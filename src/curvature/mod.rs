@@ -20,6 +20,7 @@ mod rusinkiewicz;
 mod section;
 mod shape_operator;
 mod taubin;
+mod tilted_sections;
 mod vertex;
 mod watanabe;
 
@@ -49,7 +50,7 @@ pub mod section_status {
 /// | [`Watanabe`](Method::Watanabe) | values | both | | |
 /// | [`Meyer`](Method::Meyer) | values | both | all | |
 /// | [`AngleDefect`](Method::AngleDefect) | | `K` | area, integral of `K` | |
-/// | [`Rusinkiewicz`](Method::Rusinkiewicz) | both | both | | |
+/// | [`TiltedSections`](Method::TiltedSections), [`Rusinkiewicz`](Method::Rusinkiewicz) | both | both | | |
 /// | [`NormalCycle`](Method::NormalCycle) | both | both | area, integral of `H` | |
 /// | [`CorrectedMeasure`](Method::CorrectedMeasure) | both | both | all | |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -67,6 +68,9 @@ pub enum Method {
     Quadric,
     /// Goldfeather & Interrante 2004: a cubic height field fitted to positions and normals of neighbours.
     Goldfeather,
+    /// The sections along all edges, with a tilt of Max's normal: its own normal is an output as well. Exact on spheres; the most
+    /// accurate curvature of one ring on smooth surfaces with little noise.
+    TiltedSections,
     /// The shape operator that fits the curvatures of the sections along all edges best (least squares). Exact on spheres
     /// with [`Section::Circle`] and exact normals.
     LeastSquares,
@@ -88,11 +92,12 @@ pub enum Method {
 
 impl Method {
     /// Every method.
-    pub const ALL: [Method; 12] = [
+    pub const ALL: [Method; 13] = [
         Method::AdaptiveJet,
         Method::Jet,
         Method::Quadric,
         Method::Goldfeather,
+        Method::TiltedSections,
         Method::LeastSquares,
         Method::Taubin,
         Method::Watanabe,
@@ -110,6 +115,7 @@ impl Method {
             Method::Jet => "jet",
             Method::Quadric => "quadric",
             Method::Goldfeather => "goldfeather",
+            Method::TiltedSections => "tilted-sections",
             Method::LeastSquares => "least-squares",
             Method::Taubin => "taubin",
             Method::Watanabe => "watanabe",
@@ -144,7 +150,7 @@ impl Method {
             Method::Jet | Method::Quadric | Method::Goldfeather => all.and(Kinds::RESIDUAL).and(Kinds::CONDITION),
             Method::AdaptiveJet => all.and(Kinds::RESIDUAL).and(Kinds::FREEDOM),
             Method::LeastSquares => all.and(Kinds::RESIDUAL),
-            Method::Taubin | Method::Rusinkiewicz => all,
+            Method::TiltedSections | Method::Taubin | Method::Rusinkiewicz => all,
             Method::Watanabe => values,
             Method::Meyer => values.and(Kinds::AREA).and(Kinds::INTEGRATED_MEAN).and(Kinds::INTEGRATED_GAUSSIAN),
             Method::AngleDefect => Kinds::GAUSSIAN.and(Kinds::AREA).and(Kinds::INTEGRATED_GAUSSIAN),

@@ -8,6 +8,7 @@
 //!
 //! Sign of directions: the first of the largest components of direction 1 is positive; direction 2 is `N ×` direction 1.
 
+use crate::fit::Axes;
 use crate::simd::{Vector, Vector3};
 
 /// A unit normal and two unit tangents, right-handed, in every lane.
@@ -22,18 +23,11 @@ pub(crate) struct Frame<V> {
 }
 
 impl<V: Vector> Frame<V> {
-    /// A frame around a unit normal (Duff et al. 2017): no branch and no case where it loses digits.
+    /// A frame around a unit normal; of no meaning where that is zero.
     #[inline(always)]
     pub fn new(normal: Vector3<V>) -> Self {
-        let Vector3 { x, y, z } = normal;
-        let sign = V::select(z.lt(V::zero()), -V::one(), V::one());
-        let a = -V::one() / (sign + z);
-        let b = x * y * a;
-        Frame {
-            normal,
-            x: Vector3 { x: V::one() + sign * x * x * a, y: sign * b, z: -sign * x },
-            y: Vector3 { x: b, y: sign + y * y * a, z: -y },
-        }
+        let Axes { x, y, .. } = Axes::about(normal);
+        Frame { normal, x, y }
     }
 
     /// The tangential part of a vector.

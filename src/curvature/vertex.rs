@@ -13,6 +13,7 @@ use super::ring::Curvatures;
 use super::rusinkiewicz::Rusinkiewicz;
 use super::shape_operator::LeastSquares;
 use super::taubin::Taubin;
+use super::tilted_sections::TiltedSections;
 use super::watanabe::Watanabe;
 use super::{CurvatureOutputs, Method, Section};
 use crate::error::Error;
@@ -99,6 +100,9 @@ pub fn curvatures(
             (Method::AngleDefect, _) if outputs.normal.is_none() => zeroed(topology.vertex_count()),
             // A jet only asks which side is which.
             (Method::Jet, VertexNormals::Computed(_)) => reference_normals(topology, points, run),
+            (Method::TiltedSections, VertexNormals::Computed(_)) => {
+                normals_of(topology, points, VertexNormals::Computed(Weight::Max), run)
+            }
             (_, asked) => normals_of(topology, points, asked, run),
         }
     })?;
@@ -154,6 +158,7 @@ fn by_method(
         Method::Jet => patch!(JetFit::new(jet_options(options)?)?),
         Method::Quadric => patch!(Quadric { rings, condition }),
         Method::Goldfeather => patch!(Goldfeather { rings, condition }),
+        Method::TiltedSections => ring!(TiltedSections),
         Method::LeastSquares => ring!(LeastSquares { section }),
         Method::Taubin => ring!(Taubin { section }),
         Method::Watanabe => ring!(Watanabe { section }),

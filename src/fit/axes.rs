@@ -35,19 +35,6 @@ const DIAGONAL: f64 = 1.0 / (1u64 << 56) as f64;
 const MOST_ROUNDS: usize = 10;
 
 impl<V: Vector<Scalar = f64>> Axes<V> {
-    /// A frame about a unit vector, or the coordinate axes in lanes where it is zero. Reference: Duff et al. 2017.
-    #[inline(always)]
-    pub fn about(normal: Vector3<V>) -> Self {
-        let sign = V::select(normal.z.lt(V::zero()), -V::one(), V::one());
-        let a = -V::one() / (sign + normal.z);
-        let b = normal.x * normal.y * a;
-        let x = Vector3 { x: V::one() + sign * normal.x * normal.x * a, y: sign * b, z: -(sign * normal.x) };
-        let y = Vector3 { x: b, y: sign + normal.y * normal.y * a, z: -normal.y };
-        let exists = V::zero().lt(normal.squared());
-        let z = V::select(exists, normal.z, V::one());
-        Axes { x, y, z: Vector3 { z, ..normal }, distinct: V::zero().lt(V::one()) }
-    }
-
     /// The principal axes of a patch and the vertex itself, `z` that of least variance, on the side of the vertex's normal.
     #[inline(always)]
     pub fn principal(patch: &Patch<'_, V>) -> Self {
@@ -85,6 +72,27 @@ impl<V: Vector<Scalar = f64>> Axes<V> {
         let x = x - z * z.dot(x);
         let x = x * (V::one() / x.squared().sqrt());
         Axes { x, y: z.cross(x), z, distinct }
+    }
+}
+
+impl<V: Vector> Axes<V> {
+    /// A frame about a unit vector, or the coordinate axes in lanes where it is zero. Reference: Duff et al. 2017.
+    #[inline(always)]
+    pub fn about(normal: Vector3<V>) -> Self {
+        let sign = V::select(normal.z.lt(V::zero()), -V::one(), V::one());
+        let a = -V::one() / (sign + normal.z);
+        let b = normal.x * normal.y * a;
+        let x = Vector3 { x: V::one() + sign * normal.x * normal.x * a, y: sign * b, z: -(sign * normal.x) };
+        let y = Vector3 { x: b, y: sign + normal.y * normal.y * a, z: -normal.y };
+        let exists = V::zero().lt(normal.squared());
+        let z = V::select(exists, normal.z, V::one());
+        Axes { x, y, z: Vector3 { z, ..normal }, distinct: V::zero().lt(V::one()) }
+    }
+
+    /// Axes that are known.
+    #[inline(always)]
+    pub fn of(x: Vector3<V>, y: Vector3<V>, z: Vector3<V>) -> Self {
+        Axes { x, y, z, distinct: V::zero().lt(V::one()) }
     }
 
     /// A vector's components along the axes.

@@ -8,12 +8,15 @@ mod jet;
 mod learning;
 mod least_squares;
 mod surface;
+mod tilted_sections;
 
 pub(crate) use adaptive_jet::{AdaptiveFit, AdaptiveJet};
 pub use adaptive_model::{AdaptiveModel, Coordinates};
+pub(crate) use axes::Axes;
 pub(crate) use jet::Jet;
 pub(crate) use learning::{Surroundings, learn};
 pub(crate) use least_squares::{condition, solve};
+pub(crate) use tilted_sections::TiltedSums;
 
 use crate::error::Error;
 use crate::sweep::MOST_RINGS;

@@ -27,7 +27,7 @@ pub(crate) struct Surface<V> {
     pub shape: [V; 3],
 }
 
-impl<V: Vector<Scalar = f64>> Surface<V> {
+impl<V: Vector> Surface<V> {
     /// From the first derivatives and the second (`uu`, `uv`, `vv`) of heights over `axes`.
     #[inline(always)]
     pub fn of_derivatives(axes: &Axes<V>, [p, q]: [V; 2], [uu, uv, vv]: [V; 3]) -> Self {

@@ -6,6 +6,7 @@ mod face;
 mod jet;
 mod sum;
 mod surroundings;
+mod tilted_sections;
 mod vertex;
 mod weights;
 
@@ -55,11 +56,14 @@ pub enum Weight {
     /// prior follow from the noise and the smoothness that the mesh itself shows. The most accurate normals of this library, on
     /// clean, noisy and creased meshes alike, at about the cost of [`Weight::Jet`]. On creases the mean direction of their sides.
     AdaptiveJet(AdaptiveOptions),
+    /// Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator. Exact where the
+    /// vertex and its neighbours lie on a sphere; the most accurate normal of one ring on smooth surfaces with little noise.
+    TiltedSections,
 }
 
 impl Weight {
     /// Every weight; jets with their default options.
-    pub const ALL: [Weight; 12] = [
+    pub const ALL: [Weight; 13] = [
         Weight::Conformal,
         Weight::Uniform,
         Weight::Angle,
@@ -72,6 +76,7 @@ impl Weight {
         Weight::AngleEdges,
         Weight::Jet(JetOptions { degree: 0, rings: 0 }),
         Weight::AdaptiveJet(AdaptiveOptions { rings: 0, model: None }),
+        Weight::TiltedSections,
     ];
 
     /// A name in lower case with dashes, for command lines and files; it says nothing of options.
@@ -89,6 +94,7 @@ impl Weight {
             Weight::AngleEdges => "angle-edges",
             Weight::Jet(_) => "jet",
             Weight::AdaptiveJet(_) => "adaptive-jet",
+            Weight::TiltedSections => "tilted-sections",
         }
     }
 

@@ -8,6 +8,7 @@ use super::adaptive_jet::adaptive_normals;
 use super::conformal::Conformal;
 use super::jet::jet_normals;
 use super::sum::{Estimator, Sum};
+use super::tilted_sections::TiltedNormals;
 use super::weights::{
     Angle, AngleEdges, Area, Centroid, CentroidArea, CornerWeight, InverseRootEdges, Max, Sine, Uniform, term,
 };
@@ -97,6 +98,9 @@ pub fn vertex_normals(
         Weight::AngleEdges => with!(AngleEdges),
         Weight::Jet(options) => jet_normals(topology, points, options, run, outputs),
         Weight::AdaptiveJet(options) => adaptive_normals(topology, points, options, run, outputs),
+        Weight::TiltedSections => {
+            sweep(topology, points, &mut run, true, &TiltedNormals { outputs, flags: topology.flags() })
+        }
     }
 }
 

@@ -17,7 +17,7 @@ WEIGHTS = {
     name: value
     for value, name in enumerate(
         "conformal uniform angle area max centroid-area centroid inverse-root-edges sine angle-edges jet "
-        "adaptive-jet".split()
+        "adaptive-jet tilted-sections".split()
     )
 }  # UMB_WEIGHT_
 METHODS = {
