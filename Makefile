@@ -12,15 +12,17 @@ LIBRARY := target/release/libumbilic.so
 MESHES := target/meshes/meshes
 CMAKE_BUILD := target/examples
 VENV := target/venv
+PAPER_VENV := target/paper-venv
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy pictures header packages clean FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make bench [BENCH=...]    every weight and method against a plain C scatter loop, CGAL and libigl"
 	@echo "make accuracy             orders of convergence on smooth surfaces: docs/accuracy.md anew"
+	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
@@ -153,6 +155,19 @@ bench: $(LIBRARY)
 
 accuracy: $(LIBRARY) $(VENV)/done
 	$(VENV)/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
+
+# ---- the paper's tables and figures ----
+
+# Fails if a printed digit of the tables that reproduce does not come out.
+paper: $(LIBRARY) $(PAPER_VENV)/done
+	$(PAPER_VENV)/bin/python -B benches/paper/paper.py $(LIBRARY)
+	$(PAPER_VENV)/bin/python -B benches/paper/check.py $(LIBRARY)
+
+$(PAPER_VENV)/done: benches/paper/requirements.txt
+	@.ci/packages python3-venv
+	$(PYTHON) -m venv $(PAPER_VENV)
+	$(PAPER_VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/paper/requirements.txt
+	touch $@
 
 # ---- the README's pictures ----
 
