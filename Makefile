@@ -161,7 +161,7 @@ accuracy: $(LIBRARY) $(VENV)/done
 # Fails if a printed digit of the tables that reproduce does not come out.
 paper: $(LIBRARY) $(PAPER_VENV)/done
 	$(PAPER_VENV)/bin/python -B benches/paper/paper.py $(LIBRARY)
-	$(PAPER_VENV)/bin/python -B benches/paper/check.py $(LIBRARY)
+	$(PAPER_VENV)/bin/python -B benches/paper/check_digits.py $(LIBRARY)
 
 $(PAPER_VENV)/done: benches/paper/requirements.txt
 	@.ci/packages python3-venv

@@ -4,7 +4,7 @@ The library has only the right ones. These decide, by the cells of table 3, what
 """
 
 import numpy
-from shapes import unit
+from polyhedra import unit
 
 
 class Rings:

@@ -3,12 +3,12 @@
 import numpy
 import places  # noqa: F401
 import style
-from convergence import normal_error
+from convergence import degrees_between, rms
 from irregular import SURFACES, Errors, cases
 from library import PAPER
 from meshes import KINDS
 from pages import short
-from shapes import fans, unit
+from polyhedra import fans, unit
 
 # The paper's, those of one ring that it does not compare, and fits for a measure of what there is to gain.
 OTHERS = {"N_C as printed": "centroid-area", "Max": "max", "Jin et al.": "inverse-root-edges", "sine": "sine"}
@@ -19,14 +19,23 @@ RINGS, VALENCES = 2500, range(3, 10)
 PLOTTED = PAPER | {"Max": "max"}
 
 
+def estimators(library):
+    """What the library has of the list: a weight, or else a curvature whose normal is asked for."""
+    for name, what in LISTED.items():
+        if library.knows(weight=what):
+            yield name, lambda mesh, positions, weight=what: mesh.normals(positions, weight)[0]
+        elif library.knows(method=what):
+            yield name, lambda mesh, positions, method=what: mesh.curvatures(positions, method, ("normal",))["normal"]
+
+
 def on_surfaces(library):
     """Root mean squares of the angle to the exact normal, in degrees."""
-    errors = Errors()
-    listed = {name: weight for name, weight in LISTED.items() if library.knows(weight=weight)}
+    errors, listed = Errors(), dict(estimators(library))
     for case in cases():
         with library.mesh(case.mesh.faces, len(case.mesh.positions)) as topology:
-            for name, weight in listed.items():
-                errors.add(name, case, normal_error(topology, case.mesh, {"weight": weight})["normal"])
+            for name, normals in listed.items():
+                off = degrees_between(normals(topology, case.mesh.positions), case.mesh.exact.normal)
+                errors.add(name, case, rms(off[case.mesh.counted]))
     return errors
 
 

@@ -3,7 +3,7 @@
 import as_printed
 import printed
 from pages import paragraphs, scientific, table
-from shapes import regular_polygon
+from polyhedra import regular_polygon
 from table_3 import meshes
 
 

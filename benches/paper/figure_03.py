@@ -3,7 +3,7 @@
 import numpy
 import style
 from pages import figure
-from shapes import regular_polygon
+from polyhedra import regular_polygon
 
 COUNTS = (3, 4, 5, 6, 8)
 

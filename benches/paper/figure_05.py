@@ -4,7 +4,7 @@ import coordinates
 import numpy
 import style
 from pages import figure, significant, table
-from shapes import regular_polygon
+from polyhedra import regular_polygon
 
 EXTENT, SAMPLES, DENSER = 1.45, 260, 3
 CONVEX = regular_polygon(7)  # its first vertex is on the y axis

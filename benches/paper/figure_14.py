@@ -4,7 +4,7 @@ import numpy
 import style
 from pages import figure
 from render import Picture, View
-from shapes import tetrahedron_sphere
+from polyhedra import tetrahedron_sphere
 from table_3 import meshes
 
 PIXELS = 230

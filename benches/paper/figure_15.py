@@ -4,7 +4,7 @@ import numpy
 import style
 from pages import figure, paragraphs, table
 from render import Picture, View
-from shapes import CUTS, cube, unit
+from polyhedra import CUTS, cube, unit
 
 SHOWN = {"N_G": "uniform", "N_C": "centroid", "N_CM": "conformal", "N_T": "angle", "Max": "max"}
 LISTED = SHOWN | {"N_C as printed": "centroid-area", "N_M": "area"}

@@ -4,7 +4,7 @@ import ctypes
 
 import numpy
 import places  # noqa: F401
-from shapes import TETRAHEDRON, TETRAHEDRON_FACES
+from polyhedra import TETRAHEDRON, TETRAHEDRON_FACES
 from umbilic import Output, Run, StatusOutput, Umbilic, address, output, pointer, size, sized, struct, u32
 
 # The paper's normals, in the order of its tables, and what the library calls them. N_M is the area weight that the

@@ -33,9 +33,10 @@ def make(normals, rings, curves, sections, folder):
         [
             "## Measured",
             paragraphs(f"""
-Surfaces and meshes are those of [accuracy](../accuracy.md), and a sphere, and the cubic over a fifth of its square,
-in triangles about five times as long as wide. Two sizes, of about 1000 and 4000 vertices; irregular meshes and quads
-with {len(SEEDS)} seeds each. A *case* is one mesh. Tables have the mean over seeds on the finer meshes.
+Surfaces and meshes are those of [benches/accuracy](../../benches/accuracy), and a sphere, and the cubic over a fifth
+of its square, in triangles about five times as long as wide. Two sizes, of about 1000 and 4000 vertices; irregular
+meshes and quads with {len(SEEDS)} seeds each. A *case* is one mesh. Tables have the mean over seeds on the finer
+meshes.
 """),
             "### Normals on smooth surfaces",
             "Root mean square of the angle to the exact normal, in degrees.",

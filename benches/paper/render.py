@@ -4,7 +4,7 @@ Shading comes after, over whole pictures at once: what is behind a sample is int
 """
 
 import numpy
-from shapes import unit
+from polyhedra import unit
 
 UP = numpy.array([0.0, 0.0, 1.0])
 

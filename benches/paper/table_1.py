@@ -2,7 +2,7 @@
 
 import printed
 from pages import paragraphs, table
-from shapes import regular_polygon
+from polyhedra import regular_polygon
 
 
 def curvatures(library):

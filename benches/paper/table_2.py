@@ -4,7 +4,7 @@ import numpy
 import printed
 from library import PAPER
 from pages import paragraphs, percent, scientific, significant, table
-from shapes import TETRAHEDRON, TETRAHEDRON_FACES, subdivided, tetrahedron_sphere, unit
+from polyhedra import TETRAHEDRON, TETRAHEDRON_FACES, subdivided, tetrahedron_sphere, unit
 
 PLACES = 31  # of either parameter, in the search for the paper's rule
 

@@ -4,7 +4,7 @@ import as_printed
 import printed
 from library import PAPER
 from pages import paragraphs, scientific, table
-from shapes import ring_sphere
+from polyhedra import ring_sphere
 from table_2 import error
 
 SPHERES = {23: (7, 3), 50: (8, 6), 122: (15, 8), 262: (20, 13), 578: (36, 16)}  # segments and rings
@@ -47,9 +47,9 @@ def make(library, folder):
             "### Table 3: mean error of normals, mesh by longitude and latitude",
             table(["vertices", *map(str, SPHERES)], rows),
             paragraphs(f"""
-{same} of {cells} cells are the paper's to its printed digits (`benches/paper/check.py` fails otherwise); the others
-are bold. The paper prints three digits but holds six decimals: 5.73e-5 stands there as 5.70E-05, 2.16e-6 as 2.00E-06.
-Errors here are rounded to six decimals before they are compared.
+{same} of {cells} cells are the paper's to its printed digits (`benches/paper/check_digits.py` fails otherwise); the
+others are bold. The paper prints three digits but holds six decimals: 5.73e-5 stands there as 5.70E-05, 2.16e-6 as
+2.00E-06. Errors here are rounded to six decimals before they are compared.
 
 The meshes are not described in the paper. These numbers of vertices have one natural reading: two poles and {sizes}
 segments x rings at even latitudes, every quad cut along the same diagonal. N_C is the sum with the weight 1/g² of

@@ -2,7 +2,7 @@
 
 import numpy
 from pages import paragraphs, scientific, table, under
-from shapes import fans
+from polyhedra import fans
 
 FANS, VALENCE = 12500, 8
 UP = numpy.array([0.0, 0.0, 1.0])

@@ -156,7 +156,7 @@ by at most {percent(max(change))}.""",
             "Against",
             f"""N_CM is not exact enough: twice as fine irregular meshes divide the error of curvature by
 {min(shrink):.1f} to {max(shrink):.1f} only (2 would be first order). Normals of first order, and all averages of one
-ring are that, give curvature that does not converge on irregular meshes; see [accuracy](../accuracy.md).""",
+ring are that, give curvature that does not converge on irregular meshes; see [accuracy](../../README.md#accuracy).""",
         ),
         ("Verdict", "The first half holds; the second only on regular meshes."),
     )

@@ -15,7 +15,7 @@ from library import PAPER
 from meshes import KINDS
 from pages import claim, scientific, significant, under
 from report import TITLES, sum_of, verdict
-from shapes import CUTS, tetrahedron_sphere, unit
+from polyhedra import CUTS, tetrahedron_sphere, unit
 
 BEFORE = [name for name in PAPER if name != "N_CM"]
 

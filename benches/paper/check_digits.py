@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails if a printed digit of the paper's tables 1 and 3 does not come out, or one that is said not to does.
 
-python3 benches/paper/check.py target/release/libumbilic.so
+python3 benches/paper/check_digits.py target/release/libumbilic.so
 
 Needs numpy only.
 """
@@ -31,7 +31,7 @@ def failures(library):
 
 def main(arguments):
     if len(arguments) != 1:
-        sys.exit("usage: check.py LIBRARY")
+        sys.exit("usage: check_digits.py LIBRARY")
     found = list(failures(Library(Path(arguments[0]).resolve())))
     if found:
         sys.exit("\n".join(found))
