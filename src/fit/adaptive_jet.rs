@@ -56,6 +56,9 @@ const FEW_SLOPE_PRIOR: f64 = 100.0;
 /// What is added to the diagonal of the quadric that finds the frame, relative to it.
 const FRAME_RIDGE: f64 = 1e-6;
 
+/// Likewise for plain jets.
+const PLAIN_RIDGE: f64 = 1e-11;
+
 /// The cosine of the largest turn of the frame.
 const MOST_TURN: f64 = 0.8;
 
@@ -201,8 +204,8 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
         }
     }
     let tiny = V::constant(f64::MIN_POSITIVE);
-    for k in 0..QUADRIC {
-        matrix[k][k] = matrix[k][k] * V::constant(1.0 + FRAME_RIDGE) + tiny;
+    for (k, row) in matrix.iter_mut().enumerate() {
+        row[k] = row[k] * V::constant(1.0 + FRAME_RIDGE) + tiny;
     }
     let factored = factor(&mut matrix);
     let definite = factored.definite;
@@ -375,14 +378,12 @@ fn add_series<V: Vector, const D: usize>(
         if degree > 0 {
             // The last is a power of v, the others have one u more than those before.
             monomials[degree] = product(&monomials[degree - 1], v);
-            for term in 0..degree {
-                monomials[term] = product(&monomials[term], u);
+            for monomial in &mut monomials[..degree] {
+                *monomial = product(monomial, u);
             }
         }
         if without & 1 << degree == 0 {
-            for term in 0..=degree {
-                let [a, b, c, d] = monomials[term];
-                let sum = &mut sums[first_of(degree) + term];
+            for (sum, &[a, b, c, d]) in sums[first_of(degree)..].iter_mut().zip(&monomials[..=degree]) {
                 *sum = *sum + ((a + b) + (c + d));
             }
         }
@@ -436,10 +437,13 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
     pub fn shares(&self) -> [(V, V); 3] {
         [2, 3, 4].map(|degree| {
             let (mut squares, mut variances) = (V::zero(), V::zero());
-            for term in first_of(degree)..first_of(degree + 1) {
-                let inverse = V::constant(1.0 / BINOMIALS[term]);
-                squares = squares + self.c[term] * self.c[term] * inverse;
-                variances = variances + self.variances[term] * inverse;
+            let terms = first_of(degree)..first_of(degree + 1);
+            for ((&c, &variance), binomial) in
+                self.c[terms.clone()].iter().zip(&self.variances[terms.clone()]).zip(&BINOMIALS[terms])
+            {
+                let inverse = V::constant(1.0 / binomial);
+                squares = squares + c * c * inverse;
+                variances = variances + variance * inverse;
             }
             (squares, variances)
         })
@@ -528,8 +532,8 @@ pub(super) fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
         }
     }
     let tiny = V::constant(f64::MIN_POSITIVE);
-    for k in 0..K {
-        matrix[k][k] = matrix[k][k] * V::constant(1.0 + 1e-11) + tiny;
+    for (k, row) in matrix.iter_mut().enumerate() {
+        row[k] = row[k] * V::constant(1.0 + PLAIN_RIDGE) + tiny;
     }
     let factored = factor(&mut matrix);
     let definite = factored.definite;

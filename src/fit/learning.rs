@@ -94,15 +94,15 @@ impl Surroundings {
         let mut counts = found.counts_within();
         let mut count = 0;
         let mut first = 0;
-        for ring in 0..4 {
-            let last = counts[ring] as usize;
+        for (ring, ring_count) in counts.iter_mut().enumerate() {
+            let last = *ring_count as usize;
             for &neighbour in &found.vertices()[first..last] {
                 chosen[count] = neighbour;
                 let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
                 let wanted = self.marks[neighbour as usize] & unwanted == 0;
                 count += ((near || ring < rings) && wanted) as usize;
             }
-            counts[ring] = count as u32;
+            *ring_count = count as u32;
             first = last;
         }
         counts

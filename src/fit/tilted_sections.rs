@@ -83,8 +83,8 @@ impl<V: Vector> TiltedSums<V> {
             let curvature = twice * w;
             for i in 0..K {
                 let weighted = row[i] * weight;
-                for j in 0..=i {
-                    self.matrix[i][j] = self.matrix[i][j] + weighted * row[j];
+                for (sum, other) in self.matrix[i][..=i].iter_mut().zip(row) {
+                    *sum = *sum + weighted * other;
                 }
                 self.right[i] = self.right[i] + weighted * curvature;
             }
