@@ -51,6 +51,7 @@
 #define UMB_ERROR_INIT UMB_INIT_(umb_error)
 #define UMB_TOPOLOGY_OPTIONS_INIT UMB_INIT_(umb_topology_options)
 #define UMB_TOPOLOGY_STATS_INIT UMB_INIT_(umb_topology_stats)
+#define UMB_ADAPTIVE_MODEL_INIT UMB_INIT_(umb_adaptive_model)
 #define UMB_NORMAL_OPTIONS_INIT UMB_INIT_(umb_normal_options)
 #define UMB_NORMAL_OUTPUTS_INIT UMB_INIT_(umb_normal_outputs)
 #define UMB_FACE_OPTIONS_INIT UMB_INIT_(umb_face_options)
@@ -104,8 +105,9 @@
 #define UMB_VERTEX_WIDENED 64
 
 /**
- * The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its curvatures
- * are those of sections. Set by adaptive jets only.
+ * A face of the vertex is more than 37 degrees from its one-ring normal: a crease, or a very coarse or noisy place. Set by adaptive
+ * jets only. Where no smooth surface goes with the faces, `UMB_VERTEX_FALLBACK` is set as well: the normal is then the mean direction
+ * of the sides of the crease, and curvatures are those of sections.
  */
 #define UMB_VERTEX_CREASE 128
 
@@ -1185,7 +1187,7 @@ typedef struct umb_polyline_outputs {
  * No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
  * follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
  * library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
- * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE`) has the mean direction of its sides. See `rings` and `model` of
+ * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
  * `umb_normal_options`.
  */
 #define UMB_WEIGHT_ADAPTIVE_JET 11
@@ -1201,8 +1203,8 @@ typedef struct umb_polyline_outputs {
  * the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
  * surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
  * Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
- * so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE`) has the curvatures that fit the circles along its edges
- * best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+ * so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the
+ * circles along its edges best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
  */
 #define UMB_CURVATURE_ADAPTIVE_JET 0
 

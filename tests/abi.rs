@@ -16,14 +16,15 @@ macro_rules! layout {
 /// Every field of every struct; `tests/c/layout.c` holds C to the same numbers.
 #[test]
 fn layouts() {
-    layout!(umb_curvature_options: 112, struct_size 0, method 4, section 8, weight 12, radius 16, degree 24, rings 28, normal_degree 32, normal_rings 36, normals 40, run 72);
-    layout!(umb_curvature_outputs: 384, struct_size 0, reserved 4, k1 8, k2 32, direction1 56, direction2 80, mean 104, gaussian 128, mean_normal 152, area 176, integrated_mean 200, integrated_gaussian 224, shape_index 248, curvedness 272, residual 296, condition 320, normal 344, status 368);
+    layout!(umb_adaptive_model: 88, struct_size 0, coordinates 4, edge_length 8, noise 16, sizes 24, noise_exponent 56, size_exponent 60, evidence 64, sample 80, reserved 84);
+    layout!(umb_curvature_options: 120, struct_size 0, method 4, section 8, weight 12, radius 16, degree 24, rings 28, normal_degree 32, normal_rings 36, model 40, normals 48, run 80);
+    layout!(umb_curvature_outputs: 408, struct_size 0, reserved 4, k1 8, k2 32, direction1 56, direction2 80, mean 104, gaussian 128, mean_normal 152, area 176, integrated_mean 200, integrated_gaussian 224, shape_index 248, curvedness 272, residual 296, condition 320, degrees_of_freedom 344, normal 368, status 392);
     layout!(umb_error: 256, struct_size 0, status 4, element 8, message 16);
     layout!(umb_face_options: 48, struct_size 0, reserved 4, run 8);
     layout!(umb_face_outputs: 72, struct_size 0, reserved 4, normal 8, area_vector 32, status 56);
     layout!(umb_faces: 40, indices 0, index_count 8, offsets 16, face_count 24, index 32, arity 36);
     layout!(umb_fan: 32, neighbours 0, neighbour_count 8, corner_count 16, closed 24, reserved 28);
-    layout!(umb_normal_options: 56, struct_size 0, weight 4, run 8, degree 48, rings 52);
+    layout!(umb_normal_options: 64, struct_size 0, weight 4, run 8, degree 48, rings 52, model 56);
     layout!(umb_normal_outputs: 72, struct_size 0, reserved 4, normal 8, sum 32, status 56);
     layout!(umb_output: 24, data 0, stride 8, scalar 16, reserved 20);
     layout!(umb_points: 32, data 0, count 8, stride 16, scalar 24, reserved 28);
@@ -31,7 +32,7 @@ fn layouts() {
     layout!(umb_polyline_options: 48, struct_size 0, reserved 4, run 8);
     layout!(umb_polyline_outputs: 120, struct_size 0, reserved 4, circle 8, parabola 32, length_parabola 56, symmetric_parabola 80, status 104);
     layout!(umb_run: 40, threads 0, simd 4, vertices 8, vertex_count 16, progress 24, user 32);
-    layout!(umb_section_options: 128, struct_size 0, section 4, weight 8, shared 12, normals 16, directions 48, normal_degree 80, normal_rings 84, run 88);
+    layout!(umb_section_options: 136, struct_size 0, section 4, weight 8, shared 12, normals 16, directions 48, normal_degree 80, normal_rings 84, model 88, run 96);
     layout!(umb_section_outputs: 72, struct_size 0, reserved 4, curvature 8, status 32, normal 48);
     layout!(umb_status_output: 16, data 0, stride 8);
     layout!(umb_topology_options: 8, struct_size 0, reserved 4);

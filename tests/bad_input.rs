@@ -68,7 +68,7 @@ fn normals_refuse_what_cannot_be_right() {
     case.refuses(UMB_ERROR_UNKNOWN_FIELD, std::mem::offset_of!(umb_points, reserved) as u64, |points, _, _| {
         points.reserved = 1;
     });
-    case.refuses(UMB_ERROR_UNKNOWN_CONSTANT, 11, |_, options, _| options.weight = 11);
+    case.refuses(UMB_ERROR_UNKNOWN_CONSTANT, 13, |_, options, _| options.weight = 13);
     case.refuses(UMB_ERROR_UNKNOWN_CONSTANT, u32::MAX as u64, |_, options, _| options.weight = u32::MAX);
     case.refuses(UMB_ERROR_UNKNOWN_CONSTANT, 5, |_, options, _| options.run.simd = 5);
     case.refuses(UMB_ERROR_STRUCT_SIZE, none, |_, options, _| options.struct_size = 4);

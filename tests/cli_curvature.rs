@@ -247,10 +247,10 @@ fn options_that_a_method_does_not_have_are_refused() {
         ("--method taubin --degree 3", "torus.ply: --degree is nothing that the method has (taubin)"),
         ("--method meyer --ring 2", "torus.ply: --ring is nothing that the method has (meyer)"),
         ("--method jet --radius 0.1", "torus.ply: --radius is nothing that the method has (jet)"),
-        ("--degree 1", "torus.ply: --degree is outside its range"),
+        ("--method jet --degree 1", "torus.ply: --degree is outside its range"),
         ("--method normal-cycle --radius 1 --rings 2", "torus.ply: --ring beside --radius is nothing"),
-        ("--section c", "--section is nothing that the method has (jet)"),
-        ("--normal max", "--normal is nothing that the method has (jet)"),
+        ("--section c", "--section is nothing that the method has (adaptive-jet)"),
+        ("--normal max", "--normal is nothing that the method has (adaptive-jet)"),
         ("--method angle-defect --color mean", "--color mean is nothing that the method has (angle-defect)"),
     ] {
         for line in [format!("curvature torus.ply -o a.ply {options}"), {

@@ -226,9 +226,9 @@ fn options_out_of_range_and_out_of_place_are_refused() {
             refuses(&mesh, |o| (o.method, o.degree) = (method, 2), place, none);
         }
         refuses(&mesh, |o| (o.method, o.section) = (method, 4), unknown, 4);
-        refuses(&mesh, |o| (o.method, o.weight) = (method, 11), unknown, 11);
+        refuses(&mesh, |o| (o.method, o.weight) = (method, 13), unknown, 13);
     }
-    refuses(&mesh, |o| o.method = 11, unknown, 11);
+    refuses(&mesh, |o| o.method = 13, unknown, 13);
     refuses(&mesh, |o| o.struct_size = 4, UMB_ERROR_STRUCT_SIZE, none);
 }
 

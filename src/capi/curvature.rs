@@ -34,8 +34,8 @@ pub type umb_curvature_method = u32;
 /// the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
 /// surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
 /// Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
-/// so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE`) has the curvatures that fit the circles along its edges
-/// best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+/// so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the
+/// circles along its edges best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
 pub const UMB_CURVATURE_ADAPTIVE_JET: umb_curvature_method = 0;
 /// Osculating jets (Cazals and Pouget 2005): a polynomial height field over several rings, over the plane of least squares of
 /// its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,

@@ -92,7 +92,8 @@ pub(super) unsafe fn read_versioned<T: Versioned>(pointer: *const T) -> Result<T
     Ok(value)
 }
 
-/// Writes a struct of any version: as many of its fields as the caller's size says, which stays as it is. `value` is asked for
+/// Writes a struct of any version: as many of its fields as the caller's size says, which stays as it is, and zeros for fields that
+/// this version does not know. `value` is asked for
 /// once the pointer and the size are good.
 ///
 /// # Errors
@@ -116,7 +117,11 @@ pub(super) unsafe fn write_versioned<T: Versioned>(
     let value = value()?;
     let (from, to) = ((&raw const value).cast::<u8>(), pointer.cast::<u8>());
     // SAFETY: both have that many bytes, and a `T` starts with its size.
-    unsafe { std::ptr::copy_nonoverlapping(from.add(4), to.add(4), size.min(size_of::<T>()) - 4) };
+    unsafe {
+        let known = size.min(size_of::<T>());
+        std::ptr::copy_nonoverlapping(from.add(4), to.add(4), known - 4);
+        std::ptr::write_bytes(to.add(known), 0, size - known);
+    }
     Ok(())
 }
 

@@ -50,7 +50,7 @@ pub const UMB_WEIGHT_JET: umb_weight = 10;
 /// No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
 /// follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
 /// library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
-/// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE`) has the mean direction of its sides. See `rings` and `model` of
+/// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
 /// `umb_normal_options`.
 pub const UMB_WEIGHT_ADAPTIVE_JET: umb_weight = 11;
 /// Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator (one 5 x 5 solve). Exact

@@ -23,8 +23,9 @@ pub const UMB_VERTEX_FALLBACK: u8 = 16;
 pub const UMB_VERTEX_DEGENERATE: u8 = 32;
 /// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
 pub const UMB_VERTEX_WIDENED: u8 = 64;
-/// The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its curvatures
-/// are those of sections. Set by adaptive jets only.
+/// A face of the vertex is more than 37 degrees from its one-ring normal: a crease, or a very coarse or noisy place. Set by adaptive
+/// jets only. Where no smooth surface goes with the faces, `UMB_VERTEX_FALLBACK` is set as well: the normal is then the mean direction
+/// of the sides of the crease, and curvatures are those of sections.
 pub const UMB_VERTEX_CREASE: u8 = 128;
 
 const _: () = {

@@ -9,7 +9,7 @@
 
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::{Frame, Operator};
-use super::ring::Curvatures;
+use super::ring::{Curvatures, RingEstimator};
 use super::shape_operator::LeastSquares;
 use super::{CurvatureOptions, Section};
 use crate::error::Error;
@@ -17,7 +17,7 @@ use crate::fit::AdaptiveJet;
 use crate::normals::{AdaptiveOptions, Sink, adaptive_jets};
 use crate::parallel::Run;
 use crate::simd::Vector;
-use crate::sweep::sweep;
+use crate::sweep::{Ring, RingFaces, Scratch, sweep};
 use crate::topology::{Topology, status};
 use crate::view::Points;
 
@@ -39,13 +39,48 @@ struct Results<'a> {
     outputs: &'a CurvatureOutputs<'a>,
 }
 
+/// Sections on a crease, of which nothing is said about how well a shape operator fits them.
+struct CreaseSections(LeastSquares);
+
+impl RingEstimator for CreaseSections {
+    type Sums<V: Vector> = <LeastSquares as RingEstimator>::Sums<V>;
+
+    #[inline(always)]
+    fn start<V: Vector>() -> Self::Sums<V> {
+        LeastSquares::start()
+    }
+
+    #[inline(always)]
+    fn add<V: Vector, F: RingFaces<V>>(
+        &self,
+        ring: &Ring<'_, V, F>,
+        frame: &Frame<V>,
+        scratch: &mut Scratch<'_, V>,
+        sums: &mut Self::Sums<V>,
+    ) {
+        self.0.add(ring, frame, scratch, sums);
+    }
+
+    #[inline(always)]
+    fn finish<V: Vector>(&self, sums: &Self::Sums<V>, frame: &Frame<V>) -> Local<V> {
+        Local { residual: V::zero(), ..self.0.finish(sums, frame) }
+    }
+}
+
 impl Sink for Results<'_> {
     fn freedom(&self) -> bool {
         self.outputs.degrees_of_freedom.is_some()
     }
 
     #[inline(always)]
-    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, jet: &AdaptiveJet<V>, scale: V) -> u32 {
+    fn write<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        lanes: u32,
+        jet: &AdaptiveJet<V>,
+        scale: V,
+        more: u8,
+    ) -> u32 {
         let surface = &jet.surface;
         let [a, b, d] = surface.shape;
         let frame = Frame { normal: surface.normal, x: surface.x, y: surface.y };
@@ -57,7 +92,7 @@ impl Sink for Results<'_> {
         };
         let lanes = lanes & found.trusted();
         let (flags, scales) = (self.topology.flags(), scale.to_lanes());
-        let block = Block { vertices, lanes, scales, residual_power: 1, flags, more: 0, fallbacks: 0 };
+        let block = Block { vertices, lanes, scales, residual_power: 1, flags, more, fallbacks: 0 };
         self.outputs.write(&block, &found.rows());
         lanes
     }
@@ -72,8 +107,8 @@ impl Sink for Results<'_> {
             outputs: self.outputs,
             flags: self.topology.flags(),
             normals,
-            estimator: LeastSquares { section: Section::Circle },
-            more: status::CREASE,
+            estimator: CreaseSections(LeastSquares { section: Section::Circle }),
+            more: status::CREASE | status::FALLBACK,
         };
         sweep(self.topology, self.points, &mut run, true, &creases)
     }

@@ -56,7 +56,7 @@ pub(crate) struct Surroundings {
     pub normals: Vec<[f64; 3]>,
     /// The mean length of each vertex's edges, those of its faces at the vertex.
     pub edge_lengths: Vec<f64>,
-    /// [`Surroundings::SHARP`] and [`Surroundings::SPIKE`].
+    /// [`Surroundings::SHARP`], [`Surroundings::SPIKE`] and [`Surroundings::BESIDE_SPIKE`].
     pub marks: Vec<u8>,
 }
 
@@ -65,9 +65,12 @@ impl Surroundings {
     pub const SHARP: u8 = 1;
     /// The vertex stands out of its neighbours: it is no use to fits around others.
     pub const SPIKE: u8 = 2;
+    /// A neighbour is a spike: what is sharp is so because of that.
+    pub const BESIDE_SPIKE: u8 = 4;
 
     /// Whether a vertex may be on a crease.
-    pub fn is_sharp(&self, vertex: usize) -> bool {
+    #[inline(always)]
+    pub fn may_be_creased(&self, vertex: usize) -> bool {
         self.marks[vertex] == Self::SHARP
     }
 
@@ -75,7 +78,7 @@ impl Surroundings {
     #[inline(always)]
     pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
         let own = DVec3::from(self.normals[vertex as usize]);
-        let rings = self.is_sharp(vertex as usize) as usize;
+        let rings = self.may_be_creased(vertex as usize) as usize;
         let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
         if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
     }

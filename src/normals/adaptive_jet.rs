@@ -3,9 +3,9 @@
 //! See [`fit`](crate::fit) for the fit and for what is learned. This file runs them: first what all one-rings are like, then, if
 //! no model is given, what the mesh teaches, then the fits, and at last the vertices on creases.
 //!
-//! **Creases.** A vertex with a face more than 37° from its normal is on a crease if a smooth surface through its ring
-//! contradicts what was learned of noise and smoothness ([`AdaptiveJet::kinked`]). Then nothing is fitted there: its normal is the mean direction of the sides of the crease
-//! (`surroundings.rs`), curvatures are those of sections, and the status says crease. Everywhere else neighbours beyond a crease do not
+//! **Creases.** The status of a vertex with a face more than 37° from its normal says crease. If besides a smooth surface through
+//! its ring contradicts what was learned of noise and smoothness ([`AdaptiveJet::kinked`]), nothing is fitted there: its normal is the
+//! mean direction of the sides (`surroundings.rs`), curvatures are those of sections, and the status says fallback too. Everywhere else neighbours beyond a crease do not
 //! count, since their normals are more than 60° away.
 //!
 //! Degenerate rule: a vertex without normal has no result (status degenerate); one where the fit has no solution in range keeps
@@ -39,8 +39,15 @@ pub(crate) trait Sink: Sync {
     fn freedom(&self) -> bool {
         false
     }
-    /// Writes the lanes of a block whose bits are set and that have numbers in range; answers with their bits.
-    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, jet: &AdaptiveJet<V>, scale: V) -> u32;
+    /// Writes the lanes of a block whose bits are set and that have numbers in range, with status bits; answers with theirs.
+    fn write<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        lanes: u32,
+        jet: &AdaptiveJet<V>,
+        scale: V,
+        more: u8,
+    ) -> u32;
     /// Writes a vertex that has no jet, with its normal (zero where it has none) and status bits.
     fn write_none(&self, vertex: usize, normal: [f64; 3], more: u8);
     /// Writes the vertices on creases, which are those of `run`; `normals` has theirs.
@@ -164,18 +171,24 @@ impl<S: Sink> PatchQuantity for Jets<'_, S> {
         let jet = self.fit.lanes(vertices, patch, scale, attempt > 0, scratch);
         let all = (1u32 << vertices.len()) - 1;
         let known = jet.trusted.and(V::zero().lt(patch.normal.squared())).bits() & all;
-        let mut creases = known & jet.kinked.bits();
+        let (kinked, mut creases, mut sharp) = (jet.kinked.bits(), 0, 0);
         for (lane, &vertex) in vertices.iter().enumerate() {
-            if creases & 1 << lane != 0 {
-                if self.around.is_sharp(vertex as usize) {
+            let bit = 1 << lane;
+            if self.around.marks[vertex as usize] & Surroundings::SHARP != 0 {
+                sharp |= bit;
+                if known & kinked & bit != 0 && self.around.may_be_creased(vertex as usize) {
+                    creases |= bit;
                     self.creased.write(vertex as usize, 1);
-                } else {
-                    creases &= !(1 << lane);
                 }
             }
         }
         let again = if attempt == 0 { jet.off.bits() } else { 0 };
-        all & !creases & !self.sink.write(vertices, known & !creases & !again, &jet, scale)
+        let fitted = known & !creases & !again;
+        let mut done = creases | self.sink.write(vertices, fitted & !sharp, &jet, scale, 0);
+        if fitted & sharp != 0 {
+            done |= self.sink.write(vertices, fitted & sharp, &jet, scale, status::CREASE);
+        }
+        all & !done
     }
 
     fn alone(
@@ -215,13 +228,20 @@ struct Normals<'a> {
 
 impl Sink for Normals<'_> {
     #[inline(always)]
-    fn write<V: Vector<Scalar = f64>>(&self, vertices: &[u32], lanes: u32, jet: &AdaptiveJet<V>, _scale: V) -> u32 {
+    fn write<V: Vector<Scalar = f64>>(
+        &self,
+        vertices: &[u32],
+        lanes: u32,
+        jet: &AdaptiveJet<V>,
+        _scale: V,
+        more: u8,
+    ) -> u32 {
         let normal = jet.surface.normal;
         let lanes = lanes & normal.squared().lt(V::constant(2.0)).bits();
         let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
         for (lane, &vertex) in vertices.iter().enumerate() {
             if lanes & 1 << lane != 0 {
-                self.write_none(vertex as usize, axes.map(|axis| axis[lane]), 0);
+                self.write_none(vertex as usize, axes.map(|axis| axis[lane]), more);
             }
         }
         lanes
@@ -233,7 +253,7 @@ impl Sink for Normals<'_> {
 
     fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
         for &vertex in run.vertices.unwrap_or(&[]) {
-            self.write_none(vertex as usize, normals[vertex as usize], status::CREASE);
+            self.write_none(vertex as usize, normals[vertex as usize], status::CREASE | status::FALLBACK);
         }
         Ok(())
     }

@@ -44,11 +44,10 @@ pub(super) fn surroundings(
         marks: found.marks.as_mut_slice().into(),
     };
     sweep(topology, points, run, true, &quantity)?;
-    // What is sharp because of a spike next to it is no crease.
     for vertex in 0..count {
         if found.marks[vertex] & Surroundings::SPIKE != 0 {
             for &neighbour in topology.ring(vertex) {
-                found.marks[neighbour as usize] &= !Surroundings::SHARP;
+                found.marks[neighbour as usize] |= Surroundings::BESIDE_SPIKE;
             }
         }
     }

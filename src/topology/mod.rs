@@ -36,8 +36,9 @@ pub mod status {
     pub const DEGENERATE: u8 = 32;
     /// The neighbourhood asked for had too few vertices, or too few in general position, and was widened.
     pub const WIDENED: u8 = 64;
-    /// The vertex is on a crease, where an adaptive jet fits nothing: its normal is the mean direction of the sides, its
-    /// curvatures are those of sections.
+    /// A face of the vertex is more than 37° from its one-ring normal: a crease, or a very coarse or noisy place. Set by adaptive
+    /// jets only. Where no smooth surface goes with the faces, [`FALLBACK`] is set as well: the normal is then the mean direction of the
+    /// sides of the crease, and curvatures are those of sections.
     pub const CREASE: u8 = 128;
 }
 

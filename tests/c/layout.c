@@ -4,7 +4,19 @@
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), #type)
 #define OFFSET(type, field, offset) _Static_assert(offsetof(type, field) == (offset), #type "." #field)
 
-SIZE(umb_curvature_options, 112);
+SIZE(umb_adaptive_model, 88);
+OFFSET(umb_adaptive_model, struct_size, 0);
+OFFSET(umb_adaptive_model, coordinates, 4);
+OFFSET(umb_adaptive_model, edge_length, 8);
+OFFSET(umb_adaptive_model, noise, 16);
+OFFSET(umb_adaptive_model, sizes, 24);
+OFFSET(umb_adaptive_model, noise_exponent, 56);
+OFFSET(umb_adaptive_model, size_exponent, 60);
+OFFSET(umb_adaptive_model, evidence, 64);
+OFFSET(umb_adaptive_model, sample, 80);
+OFFSET(umb_adaptive_model, reserved, 84);
+
+SIZE(umb_curvature_options, 120);
 OFFSET(umb_curvature_options, struct_size, 0);
 OFFSET(umb_curvature_options, method, 4);
 OFFSET(umb_curvature_options, section, 8);
@@ -14,10 +26,11 @@ OFFSET(umb_curvature_options, degree, 24);
 OFFSET(umb_curvature_options, rings, 28);
 OFFSET(umb_curvature_options, normal_degree, 32);
 OFFSET(umb_curvature_options, normal_rings, 36);
-OFFSET(umb_curvature_options, normals, 40);
-OFFSET(umb_curvature_options, run, 72);
+OFFSET(umb_curvature_options, model, 40);
+OFFSET(umb_curvature_options, normals, 48);
+OFFSET(umb_curvature_options, run, 80);
 
-SIZE(umb_curvature_outputs, 384);
+SIZE(umb_curvature_outputs, 408);
 OFFSET(umb_curvature_outputs, struct_size, 0);
 OFFSET(umb_curvature_outputs, reserved, 4);
 OFFSET(umb_curvature_outputs, k1, 8);
@@ -34,8 +47,9 @@ OFFSET(umb_curvature_outputs, shape_index, 248);
 OFFSET(umb_curvature_outputs, curvedness, 272);
 OFFSET(umb_curvature_outputs, residual, 296);
 OFFSET(umb_curvature_outputs, condition, 320);
-OFFSET(umb_curvature_outputs, normal, 344);
-OFFSET(umb_curvature_outputs, status, 368);
+OFFSET(umb_curvature_outputs, degrees_of_freedom, 344);
+OFFSET(umb_curvature_outputs, normal, 368);
+OFFSET(umb_curvature_outputs, status, 392);
 
 SIZE(umb_error, 256);
 OFFSET(umb_error, struct_size, 0);
@@ -70,12 +84,13 @@ OFFSET(umb_fan, corner_count, 16);
 OFFSET(umb_fan, closed, 24);
 OFFSET(umb_fan, reserved, 28);
 
-SIZE(umb_normal_options, 56);
+SIZE(umb_normal_options, 64);
 OFFSET(umb_normal_options, struct_size, 0);
 OFFSET(umb_normal_options, weight, 4);
 OFFSET(umb_normal_options, run, 8);
 OFFSET(umb_normal_options, degree, 48);
 OFFSET(umb_normal_options, rings, 52);
+OFFSET(umb_normal_options, model, 56);
 
 SIZE(umb_normal_outputs, 72);
 OFFSET(umb_normal_outputs, struct_size, 0);
@@ -128,7 +143,7 @@ OFFSET(umb_run, vertex_count, 16);
 OFFSET(umb_run, progress, 24);
 OFFSET(umb_run, user, 32);
 
-SIZE(umb_section_options, 128);
+SIZE(umb_section_options, 136);
 OFFSET(umb_section_options, struct_size, 0);
 OFFSET(umb_section_options, section, 4);
 OFFSET(umb_section_options, weight, 8);
@@ -137,7 +152,8 @@ OFFSET(umb_section_options, normals, 16);
 OFFSET(umb_section_options, directions, 48);
 OFFSET(umb_section_options, normal_degree, 80);
 OFFSET(umb_section_options, normal_rings, 84);
-OFFSET(umb_section_options, run, 88);
+OFFSET(umb_section_options, model, 88);
+OFFSET(umb_section_options, run, 96);
 
 SIZE(umb_section_outputs, 72);
 OFFSET(umb_section_outputs, struct_size, 0);

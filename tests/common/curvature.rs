@@ -7,10 +7,12 @@ use super::capi::{Handle, message, points, zeroed};
 use super::mesh::Mesh;
 use umbilic::capi::*;
 
-pub const METHODS: [umb_curvature_method; 11] = [
+pub const METHODS: [umb_curvature_method; 13] = [
+    UMB_CURVATURE_ADAPTIVE_JET,
     UMB_CURVATURE_JET,
     UMB_CURVATURE_QUADRIC,
     UMB_CURVATURE_GOLDFEATHER,
+    UMB_CURVATURE_TILTED_SECTIONS,
     UMB_CURVATURE_LEAST_SQUARES,
     UMB_CURVATURE_TAUBIN,
     UMB_CURVATURE_WATANABE,
@@ -38,11 +40,12 @@ pub enum Out {
     Curvedness,
     Residual,
     Condition,
+    DegreesOfFreedom,
     Normal,
 }
 pub use Out::*;
 
-pub const OUTPUTS: [Out; 15] = [
+pub const OUTPUTS: [Out; 16] = [
     K1,
     K2,
     Direction1,
@@ -57,6 +60,7 @@ pub const OUTPUTS: [Out; 15] = [
     Curvedness,
     Residual,
     Condition,
+    DegreesOfFreedom,
     Normal,
 ];
 
@@ -69,7 +73,7 @@ pub fn power(output: Out, method: umb_curvature_method) -> i32 {
         IntegratedMean => 1,
         Residual if method == UMB_CURVATURE_LEAST_SQUARES => -1,
         Residual => 1,
-        Direction1 | Direction2 | IntegratedGaussian | ShapeIndex | Condition | Normal => 0,
+        Direction1 | Direction2 | IntegratedGaussian | ShapeIndex | Condition | DegreesOfFreedom | Normal => 0,
     }
 }
 
@@ -94,6 +98,7 @@ impl Out {
             Curvedness => &mut outputs.curvedness,
             Residual => &mut outputs.residual,
             Condition => &mut outputs.condition,
+            DegreesOfFreedom => &mut outputs.degrees_of_freedom,
             Normal => &mut outputs.normal,
         }
     }
@@ -101,6 +106,7 @@ impl Out {
     /// The header's table.
     pub fn is_of(self, method: umb_curvature_method) -> bool {
         let fit = [UMB_CURVATURE_JET, UMB_CURVATURE_QUADRIC, UMB_CURVATURE_GOLDFEATHER].contains(&method);
+        let adaptive = method == UMB_CURVATURE_ADAPTIVE_JET;
         let defect = method == UMB_CURVATURE_ANGLE_DEFECT;
         let (meyer, cycle) = (method == UMB_CURVATURE_MEYER, method == UMB_CURVATURE_NORMAL_CYCLE);
         let corrected = method == UMB_CURVATURE_CORRECTED_MEASURE;
@@ -111,8 +117,9 @@ impl Out {
             Area => meyer || defect || cycle || corrected,
             IntegratedMean => meyer || cycle || corrected,
             IntegratedGaussian => meyer || defect || corrected,
-            Residual => fit || method == UMB_CURVATURE_LEAST_SQUARES,
+            Residual => fit || adaptive || method == UMB_CURVATURE_LEAST_SQUARES,
             Condition => fit,
+            DegreesOfFreedom => adaptive,
         }
     }
 }
@@ -129,7 +136,7 @@ pub fn options(method: umb_curvature_method) -> umb_curvature_options {
 #[derive(Clone, Debug)]
 pub struct Found {
     pub method: umb_curvature_method,
-    pub values: [Vec<f64>; 15],
+    pub values: [Vec<f64>; 16],
     pub status: Vec<u8>,
 }
 

@@ -50,6 +50,7 @@ const COUNTS: [(&str, &str, u8); 7] = [
     ("fallback", "results that were filled in", status::FALLBACK),
     ("degenerate", "vertices without any result", status::DEGENERATE),
     ("widened", "widened neighbourhoods", status::WIDENED),
+    ("crease", "vertices on creases", status::CREASE),
 ];
 
 impl Summary<'_> {

@@ -12,19 +12,20 @@ use umbilic::{CurvatureOptions, Error, Method, Section, VertexNormals, Weight};
 #[derive(Args)]
 #[command(next_help_heading = "Options of curvature")]
 pub struct CurvatureEstimator {
-    /// How curvatures are estimated [default: jet].
+    /// How curvatures are estimated [default: adaptive-jet].
     #[arg(long, value_parser = method())]
     method: Option<Method>,
     /// With the methods least-squares, taubin and watanabe, the curve that stands for the section of the surface along
     /// an edge; along an edge all parabolas are one [default: symmetric-parabola].
     #[arg(long, value_parser = section())]
     section: Option<Section>,
-    /// The weight of the vertex normals that the method takes, with all methods but jet, which finds its own
-    /// [default: conformal].
+    /// The weight of the vertex normals that the method takes, with all methods but jet, adaptive-jet and
+    /// tilted-sections, which find their own [default: conformal].
     #[arg(long, visible_alias = "weight", value_name = "WEIGHT", value_parser = weight())]
     normal: Option<Weight>,
-    /// How many rings of neighbours count, 1 to 8, with the methods jet, quadric, goldfeather, normal-cycle and
-    /// corrected-measure [default: 2 with jets of degree 2 and 3, 3 with those of degree 4, otherwise 1].
+    /// How many rings of neighbours count, 1 to 8, with the methods adaptive-jet, jet, quadric, goldfeather,
+    /// normal-cycle and corrected-measure [default: 3 to 6 with adaptive jets, by the noise; 2 with jets of degree 2 and 3, 3
+    /// with those of degree 4; otherwise 1].
     #[arg(long, visible_alias = "rings", value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
     ring: Option<u8>,
     /// The degree of a jet, 2 to 4; of one that gives normals only, from 1 [default: 3].
@@ -48,7 +49,7 @@ impl CurvatureEstimator {
         if self.section.is_some() && !method.has_sections() {
             return Err(self.refusal("--section"));
         }
-        if self.normal.is_some() && method == Method::Jet {
+        if self.normal.is_some() && finds_normals(method) {
             return Err(self.refusal("--normal"));
         }
         Ok(CurvatureOptions {
@@ -87,7 +88,7 @@ impl CurvatureEstimator {
         if method.has_sections() {
             rows.push(("section", self.section.unwrap_or_default().name().to_owned()));
         }
-        if method != Method::Jet {
+        if !finds_normals(method) {
             rows.push(("normals", self.normal.unwrap_or_default().name().to_owned()));
         }
         rows.extend(self.degree.map(|degree| ("degree", degree.to_string())));
@@ -120,8 +121,15 @@ fn method() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(names).try_map(|name| Method::from_name(&name).ok_or("no such method"))
 }
 
+/// Whether a method asks for no vertex normals, because it finds its own.
+fn finds_normals(method: Method) -> bool {
+    matches!(method, Method::AdaptiveJet | Method::Jet | Method::TiltedSections)
+}
+
 fn describe(method: Method) -> &'static str {
     match method {
+        Method::AdaptiveJet => "A polynomial that adapts to noise and creases of the mesh; the most accurate",
+        Method::TiltedSections => "The sections along the edges, with a tilt of the normal; the best of one ring",
         Method::Jet => "A polynomial fitted to several rings; converges on meshes of any kind, smooths noise",
         Method::Quadric => "A quadric fitted in the frame of the vertex normal",
         Method::Goldfeather => "A cubic fitted to positions and normals of neighbours",

@@ -10,7 +10,7 @@ use crate::render::{LARGEST_SIDE, UpAxis};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use umbilic::{JetOptions, Weight};
+use umbilic::{AdaptiveOptions, JetOptions, Weight};
 
 /// How vertex normals are computed.
 #[derive(Args)]
@@ -21,8 +21,8 @@ pub struct Estimator {
     /// With --weight jet, the degree of the polynomial, 1 to 4 [default: 3].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=4))]
     degree: Option<u8>,
-    /// With --weight jet, the rings of neighbours that it is fitted to, 1 to 8 [default: 1 at degree 1, 2 at degrees 2
-    /// and 3, 3 at degree 4].
+    /// With --weight jet and adaptive-jet, the rings of neighbours that it is fitted to, 1 to 8 [default: 1 at degree 1, 2
+    /// at degrees 2 and 3, 3 at degree 4; 3 to 6 with adaptive-jet, by the noise].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
     rings: Option<u8>,
 }
@@ -38,6 +38,9 @@ impl Estimator {
 fn weight_with(weight: Weight, degree: Option<u8>, rings: Option<u8>) -> Result<Weight, String> {
     match weight {
         Weight::Jet(_) => Ok(Weight::Jet(JetOptions { degree: degree.unwrap_or(0), rings: rings.unwrap_or(0) })),
+        Weight::AdaptiveJet(options) if degree.is_none() => {
+            Ok(Weight::AdaptiveJet(AdaptiveOptions { rings: rings.unwrap_or(0), ..options }))
+        }
         weight if degree.is_none() && rings.is_none() => Ok(weight),
         weight => Err(format!("--degree and --rings are for --weight jet, not {}", weight.name())),
     }
@@ -61,6 +64,12 @@ fn describe(weight: Weight) -> &'static str {
         Weight::InverseRootEdges => "One over the root of the product of the two edges at the vertex",
         Weight::Sine => "The sine of the angle",
         Weight::AngleEdges => "The angle times the two edges",
+        Weight::AdaptiveJet(_) => {
+            "A polynomial that adapts to noise and creases of the mesh; the most accurate, dear"
+        }
+        Weight::TiltedSections => {
+            "Max's, tilted so that sections along edges agree; the best of one ring on smooth meshes"
+        }
         Weight::Jet(_) => "A polynomial fitted to several rings; best on fine smooth meshes, dear, rounds creases",
         _ => "",
     }
