@@ -88,6 +88,7 @@ fn alike(
             // Of a matrix whose columns are those of the frame.
             Condition if *turn != IDENTITY => continue,
             Condition => 1e3 * a.at(Condition, v),
+            DegreesOfFreedom => 15.0,
             Normal => 1.0,
             // Compared as a tensor below; the shape index jumps where both curvatures are near zero.
             Direction1 | Direction2 | ShapeIndex => continue,

@@ -42,7 +42,7 @@ const QUANTILES: [(&str, &str, f64); 5] = [
 ];
 
 /// What is counted of the vertices' statuses: a key, words and the bit.
-const COUNTS: [(&str, &str, u8); 7] = [
+const COUNTS: [(&str, &str, u8); 8] = [
     ("boundary", "boundary vertices", status::BOUNDARY),
     ("non_manifold", "non-manifold vertices", status::NON_MANIFOLD),
     ("winding", "vertices of faces that disagree", status::WINDING),
@@ -120,7 +120,7 @@ impl Summary<'_> {
         })
     }
 
-    fn counts(&self) -> [(&'static str, &'static str, usize); 7] {
+    fn counts(&self) -> [(&'static str, &'static str, usize); COUNTS.len()] {
         COUNTS.map(|(key, words, bit)| (key, words, self.found.status.iter().filter(|&s| s & bit != 0).count()))
     }
 
