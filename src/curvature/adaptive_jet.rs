@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::fit::AdaptiveJet;
 use crate::normals::{AdaptiveOptions, Sink, adaptive_jets};
 use crate::parallel::Run;
-use crate::simd::Vector;
+use crate::simd::{MAX_LANES, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces, Scratch, sweep};
 use crate::topology::{Topology, status};
 use crate::view::Points;
@@ -98,8 +98,17 @@ impl Sink for Results<'_> {
     }
 
     fn write_none(&self, vertex: usize, normal: [f64; 3], more: u8) {
-        let flags = if more == status::ISOLATED { 0 } else { self.topology.flags()[vertex] };
-        self.outputs.write_none(vertex, normal, flags | more);
+        if more != status::FALLBACK {
+            let flags = if more == status::ISOLATED { 0 } else { self.topology.flags()[vertex] };
+            return self.outputs.write_none(vertex, normal, flags | more);
+        }
+        // Flat, with some tangents.
+        let [x, y, z] = normal;
+        let flat = Local::of_operator(&Frame::new(Vector3 { x, y, z }), &Operator { a: 0.0, b: 0.0, d: 0.0 });
+        let (flags, scales) = (self.topology.flags(), [1.0; MAX_LANES]);
+        let vertices = &[vertex as u32];
+        let block = Block { vertices, lanes: 1, scales, residual_power: 1, flags, more, fallbacks: 0 };
+        self.outputs.write(&block, &flat.rows());
     }
 
     fn write_creases(&self, mut run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {

@@ -31,6 +31,7 @@
 use super::adaptive_model::{AdaptiveModel, Coordinates};
 use super::axes::Axes;
 use super::cholesky::factor;
+use super::least_squares;
 use super::surface::Surface;
 use crate::simd::{MAX_LANES, Mask, Vector, Vector3};
 use crate::sweep::Patch;
@@ -53,11 +54,8 @@ const FEW: f64 = 8.0;
 /// `1/variance` of the slopes there.
 const FEW_SLOPE_PRIOR: f64 = 100.0;
 
-/// What is added to the diagonal of the quadric that finds the frame, relative to it.
+/// What is added to the diagonal of the quadric that finds the frame, relative to its mean of each degree.
 const FRAME_RIDGE: f64 = 1e-6;
-
-/// Likewise for plain jets.
-const PLAIN_RIDGE: f64 = 1e-11;
 
 /// The cosine of the largest turn of the frame.
 const MOST_TURN: f64 = 0.8;
@@ -102,24 +100,26 @@ pub(super) struct Heights<'s, V> {
 }
 
 /// The rows for so many points and the vertex, rounded up.
-pub(super) fn rows(points: usize) -> usize {
+fn rows(points: usize) -> usize {
     (points + 1).next_multiple_of(ROWS)
 }
 
-/// Rows of scratch for so many points.
+/// Rows of scratch for so many points: for their heights, and behind these for a plain jet.
 pub(super) fn scratch(points: usize) -> usize {
-    COLUMNS * rows(points)
+    COLUMNS * rows(points) + (TERMS + 1) * rows(points).max(TERMS)
 }
 
 impl<'s, V: Vector<Scalar = f64>> Heights<'s, V> {
-    /// Over the first `COLUMNS * rows` numbers of `scratch`.
+    /// For so many points, in `scratch`; answers with the rest of that as well.
     #[inline(always)]
-    pub fn new(scratch: &'s mut [V], rows: usize) -> Self {
+    pub fn new(scratch: &'s mut [V], points: usize) -> (Self, &'s mut [V]) {
+        let rows = rows(points);
         let (u, rest) = scratch.split_at_mut(rows);
         let (v, rest) = rest.split_at_mut(rows);
         let (w, rest) = rest.split_at_mut(rows);
         let (noise, rest) = rest.split_at_mut(rows);
-        Heights { u, v, w, noise, weight: &mut rest[..rows] }
+        let (weight, rest) = rest.split_at_mut(rows);
+        (Heights { u, v, w, noise, weight }, rest)
     }
 
     /// How many rows there are.
@@ -203,9 +203,13 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
             right[row] = right[row] + weighted * w;
         }
     }
-    let tiny = V::constant(f64::MIN_POSITIVE);
+    // The same in all directions of the plane: `uv` counts half of `u²`.
+    let half = V::constant(0.5);
+    let slopes = (matrix[1][1] + matrix[2][2]) * half;
+    let curvatures = (matrix[3][3] + matrix[4][4] + matrix[4][4] + matrix[5][5]) * V::constant(0.375);
+    let ridge = [matrix[0][0], slopes, slopes, curvatures, curvatures * half, curvatures];
     for (k, row) in matrix.iter_mut().enumerate() {
-        row[k] = row[k] * V::constant(1.0 + FRAME_RIDGE) + tiny;
+        row[k] = row[k] + ridge[k] * V::constant(FRAME_RIDGE) + V::constant(f64::MIN_POSITIVE);
     }
     let factored = factor(&mut matrix);
     let definite = factored.definite;
@@ -487,26 +491,30 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
     }
 }
 
-/// The sum of squares that a plain polynomial of `DEGREE` leaves of the points of the first rows that `inside` has, and by how
-/// many there are more of these than coefficients.
+/// The sum of squares that a plain polynomial of `K` coefficients leaves of the points within so many rings, and by how many there
+/// are more of these than coefficients; 0 where they do not determine it.
 #[inline(always)]
-pub(super) fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
+fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
+    patch: &Patch<'_, V>,
     heights: &Heights<'_, V>,
-    length: usize,
-    inside: impl Fn(usize) -> V,
+    rings: usize,
+    scratch: &mut [V],
 ) -> (V, V) {
-    // Normal equations lose half the digits, of which a noise level needs few; a ridge far below that keeps them solvable.
-    let mut extent = V::constant(NO_DIRECTION);
-    for row in 0..length {
-        let (u, v) = (heights.u[row], heights.v[row]);
-        extent = ((u * u + v * v) * inside(row)).max(extent);
-    }
-    let unit = V::one() / extent.sqrt();
-    let mut matrix = [[V::zero(); K]; K];
-    let mut right = [V::zero(); K];
-    let terms = |row: usize| {
-        let (u, v) = (heights.u[row] * unit, heights.v[row] * unit);
-        let mut terms = [V::one(); K];
+    let length = patch.len_within(rings) + 1;
+    let rows = length.max(K);
+    let columns = &mut scratch[..(K + 1) * rows];
+    for row in 0..rows {
+        // Points that a lane does not have, or not within these rings, make rows of zeros.
+        let weight = match row {
+            0 => V::one(),
+            row if row < length => patch.weight_within(rings, row - 1),
+            _ => V::zero(),
+        };
+        let (mut u, mut v, mut w) = (V::zero(), V::zero(), V::zero());
+        if row < length {
+            (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
+        }
+        let mut terms = [weight; K];
         let (mut first, mut length) = (0, 1);
         while first + length < K {
             let next = first + length;
@@ -516,55 +524,28 @@ pub(super) fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
             terms[next + length] = terms[next - 1] * v;
             (first, length) = (next, length + 1);
         }
-        terms
-    };
-    let mut count = V::zero();
-    for row in 0..length {
-        let weight = inside(row);
-        count = count + weight;
-        let terms = terms(row);
-        for i in 0..K {
-            let weighted = terms[i] * weight;
-            for j in 0..=i {
-                matrix[i][j] = matrix[i][j] + weighted * terms[j];
-            }
-            right[i] = right[i] + weighted * heights.w[row];
+        for (column, term) in terms.into_iter().enumerate() {
+            columns[column * rows + row] = term;
         }
+        columns[K * rows + row] = w * weight;
     }
-    let tiny = V::constant(f64::MIN_POSITIVE);
-    for (k, row) in matrix.iter_mut().enumerate() {
-        row[k] = row[k] * V::constant(1.0 + PLAIN_RIDGE) + tiny;
-    }
-    let factored = factor(&mut matrix);
-    let definite = factored.definite;
-    let c = factored.solve(right);
-    let mut squares = V::zero();
-    for row in 0..length {
-        let terms = terms(row);
-        let mut height = heights.w[row];
-        for k in 0..K {
-            height = height - c[k] * terms[k];
-        }
-        squares = squares + height * height * inside(row);
-    }
-    let freedom = (count - V::constant(K as f64)).max(V::zero());
-    (squares, V::select(definite, freedom, V::zero()))
+    let solution = least_squares::solve::<V, K>(columns, rows);
+    let freedom = (patch.count_within(rings) + V::constant(1.0 - K as f64)).max(V::zero());
+    (solution.residual_squared, V::select(solution.trusted, freedom, V::zero()))
 }
 
-/// The variance that the best of three plain jets (degree 4 and 3 over two rings, 4 over three) leaves of a neighbourhood, each
-/// with the number of points more than coefficients.
+/// What three plain jets (degree 4 and 3 over two rings, 4 over three) leave of the points, each with the number of points more than
+/// coefficients.
 #[inline(always)]
 pub(super) fn plain_residuals<V: Vector<Scalar = f64>>(
     patch: &Patch<'_, V>,
     heights: &Heights<'_, V>,
+    scratch: &mut [V],
 ) -> [(V, V); 3] {
-    let within =
-        |rings: usize| move |row: usize| if row == 0 { V::one() } else { patch.weight_within(rings, row - 1) };
-    let (two, three) = (patch.len_within(2) + 1, patch.len_within(3) + 1);
     [
-        plain_residual::<V, 15>(heights, two, within(2)),
-        plain_residual::<V, 10>(heights, two, within(2)),
-        plain_residual::<V, 15>(heights, three, within(3)),
+        plain_residual::<V, 15>(patch, heights, 2, scratch),
+        plain_residual::<V, 10>(patch, heights, 2, scratch),
+        plain_residual::<V, 15>(patch, heights, 3, scratch),
     ]
 }
 
@@ -656,7 +637,8 @@ impl AdaptiveFit<'_> {
         robust: bool,
         scratch: &mut [V],
     ) -> AdaptiveJet<V> {
-        let heights = &mut Heights::new(scratch, rows(patch.len()));
+        let (mut heights, scratch) = Heights::new(scratch, patch.len());
+        let heights = &mut heights;
         let (mut setting, unit) = self.setting(vertices, patch, scale, heights);
         let Frame { axes, slopes } = prepare(patch, unit, heights);
         setting.slopes = slopes;
@@ -690,7 +672,7 @@ impl AdaptiveFit<'_> {
             let noisy = (setting.count * V::constant(NOISY_PART)).lt(off);
             if noisy.bits() != 0 {
                 let mut more = V::constant(f64::MAX);
-                for (squares, freedom) in plain_residuals(patch, heights) {
+                for (squares, freedom) in plain_residuals(patch, heights, scratch) {
                     let enough = V::constant(0.5).lt(freedom);
                     let variance = squares / freedom.max(V::one());
                     more = V::select(enough, variance, V::constant(f64::MAX)).min(more);

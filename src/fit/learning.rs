@@ -212,10 +212,11 @@ impl Collector<'_> {
         let mut lanes = [1.0; crate::simd::MAX_LANES];
         lanes.iter_mut().zip(own).for_each(|(lane, own)| *lane = own);
         let unit = V::one() / (V::from_lanes(&lanes) * scale);
-        let heights = &mut Heights::new(scratch, super::adaptive_jet::rows(patch.len()));
+        let (mut heights, scratch) = Heights::new(scratch, patch.len());
+        let heights = &mut heights;
         let Frame { slopes, .. } = prepare(patch, unit, heights);
-        let plain =
-            plain_residuals(patch, heights).map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
+        let plain = plain_residuals(patch, heights, scratch)
+            .map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
         let (counts, slopes) = (patch.count.to_lanes(), slopes.map(V::to_lanes));
         for (lane, &vertex) in vertices.iter().enumerate() {
             let rows = 0..counts[lane] as usize + 1;
@@ -460,7 +461,7 @@ fn evaluate<V: Vector<Scalar = f64>>(
         V::from_lanes(&std::array::from_fn(|lane| number(block.get(lane).unwrap_or(&block[0]))))
     };
     let most = block.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
-    let heights = &mut Heights::new(scratch, super::adaptive_jet::rows(most - 1));
+    let heights = &mut Heights::new(scratch, most - 1).0;
     for row in 0..heights.u.len() {
         let at = |column: &Vec<f64>| column.get(row).copied().unwrap_or(0.0);
         heights.u[row] = load(&|sample| at(&sample.u));

@@ -124,7 +124,12 @@ pub(crate) fn adaptive_jets<S: Sink>(
     run.part_for(Some(&creases), 0.95, 0.97, |mut run| {
         crease_normals(topology, points, &mut run, &mut around.normals)
     })?;
-    run.part_for(Some(&creases), 0.97, 1.0, |run| sink.write_creases(run, &around.normals))
+    run.part_for(Some(&creases), 0.97, 1.0, |run| sink.write_creases(run, &around.normals))?;
+    if let Some(progress) = &mut run.progress {
+        // All is written, so a wish to cancel comes too late to matter.
+        progress(1.0);
+    }
+    Ok(())
 }
 
 /// Fits, and marks vertices on creases.
