@@ -12,6 +12,7 @@ import hashlib
 import pickle
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 from contestants import CANDIDATES, candidates, fixed
@@ -44,7 +45,7 @@ def cached_fixed(options, seed):
     code = hashlib.sha256(b"".join((HERE / f"{name}.py").read_bytes() for name in sources)).hexdigest()[:12]
     file = CACHE / f"fixed-{options.half}-{seed}-{code}.pickle"
     if options.fresh or not file.exists():
-        scores = measure(options.library, fixed(), cases(HALVES[options.half], [seed]), options.processes)
+        scores = measure(options.library, fixed, cases(HALVES[options.half], [seed]), options.processes)
         CACHE.mkdir(parents=True, exist_ok=True)
         file.write_bytes(pickle.dumps(scores))
     return pickle.loads(file.read_bytes())
@@ -103,7 +104,9 @@ def compare(options, scores, wanted):
     for name in wanted:
         if name not in names:
             print(f"{name}: not in this library")
-    scores.merge(measure(options.library, chosen, cases(HALVES[options.half], options.seed), options.processes))
+    if names:
+        entrants = partial(candidates, wanted)
+        scores.merge(measure(options.library, entrants, cases(HALVES[options.half], options.seed), options.processes))
     return names
 
 

@@ -1,5 +1,6 @@
-"""Runs estimators over the suite, in two processes."""
+"""Runs estimators over the suite, in processes of their own."""
 
+from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 from contestants import Subject, Umbilic
@@ -7,14 +8,12 @@ from scores import Scores, errors_of
 
 
 class Worker:
-    """What a process needs; the library is opened in each."""
+    """What a process measures with. `entrants` makes the estimators: peers must not be loaded before a fork."""
 
-    def __init__(self, library, estimators):
-        self.library, self.estimators, self.umbilic = library, estimators, None
+    def __init__(self, library, entrants):
+        self.umbilic, self.estimators = Umbilic(library), entrants()
 
-    def __call__(self, case):
-        if self.umbilic is None:
-            self.umbilic = Umbilic(self.library)
+    def scores(self, case):
         scores = Scores()
         for noise, sample in case.samples():
             with self.umbilic.mesh(sample.faces, len(sample.positions)) as topology:
@@ -27,20 +26,24 @@ class Worker:
 WORKER = None
 
 
-def start(worker):
+def start(library, entrants):
     global WORKER
-    WORKER = worker
+    WORKER = Worker(library, entrants)
 
 
 def work(case):
-    return WORKER(case)
+    return WORKER.scores(case)
 
 
-def measure(library, estimators, cases, processes=2):
+def measure(library, entrants, cases, processes=2):
     scores = Scores()
-    if estimators:
-        # Forked: what the parent has imported need not be imported again.
-        with get_context("fork").Pool(processes, start, (Worker(library, estimators),)) as pool:
-            for found in pool.imap_unordered(work, cases, 4):
-                scores.merge(found)
+    with ProcessPoolExecutor(processes, get_context("fork"), start, (library, entrants)) as pool:
+        for found in pool.map(work, cases, chunksize=4):
+            scores.merge(found)
     return scores
+
+
+def elsewhere(function, *arguments):
+    """The result of a function that is called in a process of its own."""
+    with ProcessPoolExecutor(1, get_context("fork")) as pool:
+        return pool.submit(function, *arguments).result()

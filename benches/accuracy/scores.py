@@ -14,9 +14,9 @@ def rms(values):
 
 
 def degrees_between(a, b):
-    """Between vectors, of length 1 or not; right angles from a vector that is zero."""
+    """Between vectors, of length 1 or not; right angles from one that is zero or no number."""
     sine, cosine = numpy.linalg.norm(numpy.cross(a, b), axis=1), (a * b).sum(1)
-    return numpy.where((sine == 0) & (cosine == 0), 90.0, numpy.degrees(numpy.arctan2(sine, cosine)))
+    return numpy.where((sine > 0) | (abs(cosine) > 0), numpy.degrees(numpy.arctan2(sine, cosine)), 90.0)
 
 
 def errors_of(sample, found):
