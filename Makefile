@@ -15,13 +15,14 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy paper pictures header packages clean FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy paper pictures header packages clean \
+  FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make bench [BENCH=...]    every weight and method against a plain C scatter loop, CGAL and libigl"
-	@echo "make accuracy             orders of convergence on smooth surfaces: docs/accuracy.md anew"
+	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
@@ -153,8 +154,26 @@ bench: $(LIBRARY)
 	$$(if [ -x $(VENV)/bin/python ]; then echo $(VENV)/bin/python; else echo $(PYTHON); fi) -B benches/curvature.py \
 	  $(CURDIR)/$(LIBRARY) $(BENCH)
 
-accuracy: $(LIBRARY) $(VENV)/done
-	$(VENV)/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
+# ---- accuracy ----
+
+ACCURACY := target/accuracy
+
+# Every estimator, and those of other libraries as far as they are there: some minutes.
+accuracy: $(LIBRARY) $(ACCURACY)/venv/done | packages
+	cmake -S benches/accuracy/cpp -B $(ACCURACY)/peers -DCMAKE_BUILD_TYPE=Release
+	cmake --build $(ACCURACY)/peers
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/check.py
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py $(LIBRARY) --peers $(ACCURACY)/peers
+
+$(ACCURACY)/venv/done: benches/accuracy/requirements.txt benches/accuracy/peers.txt | packages
+	$(PYTHON) -m venv $(ACCURACY)/venv
+	$(ACCURACY)/venv/bin/pip install --quiet --disable-pip-version-check -r benches/accuracy/requirements.txt
+	while read -r peer; do \
+	  $(ACCURACY)/venv/bin/pip install --quiet --disable-pip-version-check "$$peer" || \
+	    echo "$$peer is not to be had: not compared with"; \
+	done < benches/accuracy/peers.txt
+	touch $@
 
 # ---- the paper's tables and figures ----
 

@@ -50,7 +50,7 @@ def cube_grid(count, random):
 
 
 def rounded_box(count, random, core=0.6, radius=0.4):
-    """A cube whose edges and corners are cylinders and spheres: smooth normals, curvature jumps. All of it is scored."""
+    """A cube whose edges and corners are cylinders and spheres: smooth normals, curvature jumps; all scored."""
     points, triangles = cube_grid(count, random)
     points *= core + radius
     inner = numpy.clip(points, -core, core)

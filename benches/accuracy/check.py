@@ -26,8 +26,8 @@ def by_differences(place, u, v):
     normal = numpy.cross(du, dv)
     normal /= numpy.linalg.norm(normal, axis=1)[:, None]
     e, f, g = ((a * b).sum(1) for a, b in ((du, du), (du, dv), (dv, dv)))
-    l, m, n = (-(a * normal).sum(1) for a in (duu, duv, dvv))
-    gaussian, mean = (l * n - m * m) / (e * g - f * f), (e * n - 2 * f * m + g * l) / (2 * (e * g - f * f))
+    x, y, z = (-(a * normal).sum(1) for a in (duu, duv, dvv))
+    gaussian, mean = (x * z - y * y) / (e * g - f * f), (e * z - 2 * f * y + g * x) / (2 * (e * g - f * f))
     root = numpy.sqrt(numpy.maximum(mean**2 - gaussian, 0))
     return normal, mean + root, mean - root
 

@@ -1,7 +1,7 @@
 """Every estimator that takes part: the fixed ones, references that know the exact normals, and candidates.
 
-Fixed estimators are what a row's best is chosen from. A candidate says that it does well everywhere, and is compared with
-that best.
+Fixed estimators are what a row's best is chosen from. A candidate says that it does well everywhere, and is compared
+with that best.
 """
 
 import re
@@ -48,6 +48,8 @@ class Own:
 class Normal(Own):
     """A vertex normal of the library."""
 
+    gives = ("normal",)
+
     def __init__(self, name, weight, fixed=True, **options):
         self.name, self.options, self.fixed = name, {"weight": weight, **options}, fixed
 
@@ -63,6 +65,7 @@ class Curvature(Own):
         self.options, self.fixed = options, fixed and given != "exact"
         self.wanted = ("gaussian",) if method == "angle-defect" else ("k1", "k2", "mean", "gaussian")
         self.wanted += ("normal",) if leans else ()
+        self.gives = ("k", "mean", "gaussian") + (("normal",) if leans else ())
 
     def run(self, subject):
         options = dict(self.options)

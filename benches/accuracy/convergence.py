@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures how fast every normal and curvature of umbilic converges on smooth surfaces, and writes docs/accuracy.md.
+"""Measures how fast every normal and curvature of umbilic converges on smooth surfaces, and writes docs/convergence.md.
 
     python3 benches/accuracy/convergence.py target/release/libumbilic.so [FILE]
 
@@ -29,7 +29,10 @@ def degrees_between(a, b):
 
 
 def normal_error(topology, mesh, options):
-    normals, _ = topology.normals(mesh.positions, **options)
+    if "method" in options:
+        normals = topology.curvatures(mesh.positions, options["method"], ("normal",))["normal"]
+    else:
+        normals, _ = topology.normals(mesh.positions, **options)
     return {"normal": rms(degrees_between(normals, mesh.exact.normal)[mesh.counted])}
 
 
@@ -76,7 +79,8 @@ def main(arguments):
     if len(arguments) not in (1, 2):
         sys.exit("usage: convergence.py LIBRARY [FILE]")
     umbilic = Umbilic(Path(arguments[0]).resolve())
-    file = Path(arguments[1]) if len(arguments) == 2 else Path(__file__).resolve().parents[2] / "docs" / "accuracy.md"
+    docs = Path(__file__).resolve().parents[2] / "docs"
+    file = Path(arguments[1]) if len(arguments) == 2 else docs / "convergence.md"
     file.write_text(report(*measure(umbilic)))
     print(f"{umbilic.build_info()}: {file} written")
 

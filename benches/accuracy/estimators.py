@@ -6,12 +6,13 @@ from pathlib import Path
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "peers"))
-from umbilic import WEIGHTS, Umbilic  # noqa: E402, F401
+from umbilic import METHODS, WEIGHTS, Umbilic  # noqa: E402, F401
 
-# Names, and the options of Mesh.normals.
-NORMALS = {weight: {"weight": weight} for weight in WEIGHTS if weight != "jet"} | {
-    f"jet {degree}": {"weight": "jet", "degree": degree} for degree in (1, 2, 3, 4)
-}
+# Names, and the options of Mesh.normals; or the curvature whose normals these are.
+ONE_RING = {weight: {"weight": weight} for weight in WEIGHTS if not weight.endswith("jet")}
+ONE_RING |= {name: {"method": name} for name in ("tilted-sections",) if name in METHODS}
+NORMALS = ONE_RING | {f"jet {degree}": {"weight": "jet", "degree": degree} for degree in (1, 2, 3, 4)}
+NORMALS |= {name: {"weight": name} for name in ("adaptive-jet",) if name in WEIGHTS}
 
 # Normals that curvatures are given: N_CM, jets of degree 3, and the exact ones.
 GIVEN = {"N_CM": {"weight": "conformal"}, "jet": {"weight": "jet"}, "exact": {}}
@@ -42,6 +43,9 @@ class Curvature:
 
 
 def curvatures():
+    for method in ("adaptive-jet", "tilted-sections"):
+        if method in METHODS:
+            yield Curvature(method)
     for degree in (2, 3, 4):
         yield Curvature("jet", degree=degree)
     for method in ("quadric", "goldfeather"):

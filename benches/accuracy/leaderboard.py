@@ -1,10 +1,15 @@
 #!/usr/bin/env python3
 """Measures every normal and curvature of umbilic on a suite of surfaces, and compares them with the best of each row.
 
+    python3 benches/accuracy/leaderboard.py LIBRARY [--peers FOLDER] [--seed N ...]
+
+writes docs/accuracy.md and docs/accuracy.png; with --again, from what it measured the last time.
+
     python3 benches/accuracy/leaderboard.py LIBRARY --half tuning [--only NAME,...] [--seed N ...] [--worst N] [--rows]
 
-prints how candidates (or any estimators, with --only: "adaptive-jet 4", "jet 3-2", "tilted-sections") compare with the best
-fixed estimator of each row. The errors of the fixed ones are kept in target/accuracy; --fresh measures them again.
+writes no documents, but prints how candidates (or any estimators, with --only: "adaptive-jet 4", "jet 3-2",
+"tilted-sections") compare with the best fixed estimator of each row. The errors of the fixed ones are kept in
+target/accuracy; --fresh measures them again.
 """
 
 import argparse
@@ -16,27 +21,35 @@ from functools import partial
 from pathlib import Path
 
 from contestants import CANDIDATES, candidates, fixed
+from figures import QUANTITIES
 from measure import measure
+from document import publish
+from measurements import Measurements
 from scores import Scores, Summary
 from suite import HALVES, cases
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "target" / "accuracy"
-QUANTITIES = {"normal": "normals", "k": "k1, k2", "mean": "H", "gaussian": "K"}
+SEEDS = {None: [1, 2, 3], "tuning": [1], "verification": [1]}
 
 
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("library", type=Path)
-    parser.add_argument("--half", choices=HALVES, default="tuning")
-    parser.add_argument("--seed", type=int, nargs="+", default=[1], help="of the meshes; several make more rows")
+    parser.add_argument("--half", choices=HALVES, help="print how estimators do on it, and write nothing")
+    parser.add_argument("--seed", type=int, nargs="+", help="of the meshes; several make more rows")
+    parser.add_argument("--peers", type=Path, help="where the programs of cpp/ are")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where to write")
+    parser.add_argument("--again", action="store_true", help="write the documents from the last measurements")
     parser.add_argument("--only", type=lambda names: names.split(","), help="candidates, separated by commas")
     parser.add_argument("--worst", type=int, default=0, metavar="N", help="list each candidate's N worst rows")
     parser.add_argument("--rows", action="store_true", help="list all rows of each candidate")
     parser.add_argument("--fresh", action="store_true", help="measure the fixed estimators again")
     parser.add_argument("--processes", type=int, default=2)
-    return parser.parse_args(words)
+    options = parser.parse_args(words)
+    options.library, options.seed = options.library.resolve(), options.seed or SEEDS[options.half]
+    return options
 
 
 def cached_fixed(options, seed):
@@ -81,9 +94,25 @@ def print_rows(scores, name, count):
 
 
 def main(words):
-    options, start = arguments(words), time.time()
-    options.library = options.library.resolve()
-    scores = Scores()
+    options = arguments(words)
+    if options.half:
+        tune(options)
+    else:
+        write(options)
+
+
+def write(options):
+    file, start = CACHE / "last.pickle", time.time()
+    if not options.again:
+        CACHE.mkdir(parents=True, exist_ok=True)
+        found = Measurements(options.library, options.peers, options.seed, options.processes)
+        file.write_bytes(pickle.dumps(found))
+    publish(pickle.loads(file.read_bytes()), options.docs)
+    print(f"accuracy.md and accuracy.png written, in {time.time() - start:.0f} s")
+
+
+def tune(options):
+    start, scores = time.time(), Scores()
     for seed in options.seed:
         scores.merge(cached_fixed(options, seed))
     ready = time.time()

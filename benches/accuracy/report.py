@@ -1,17 +1,16 @@
-"""docs/accuracy.md from errors. What the text says of a method follows from its figures."""
-
-import re
-import textwrap
+"""docs/convergence.md from errors. What the text says of a method follows from its figures."""
 
 import numpy
-from estimators import CURVATURES, NORMALS
+from estimators import CURVATURES, NORMALS, ONE_RING
+from markdown import listed, paragraphs, table
 from meshes import KINDS
 from surfaces import SURFACES
 
 CONVERGES = 0.3  # the order from which a method is said to converge
 EXACT = 1e-11  # an error below this is rounding
 TITLES = {"regular": "regular meshes", "irregular": "irregular meshes", "quads": "meshes mostly of quads"}
-ONE_RING = [name for name in NORMALS if not name.startswith("jet")]
+AVERAGES = [name for name in ONE_RING if "weight" in NORMALS[name]]
+OTHERS = [name for name in ("tilted-sections", "adaptive-jet") if name in NORMALS]
 
 
 def order(errors):
@@ -37,11 +36,6 @@ def cell(errors):
         return "–"
     fitted = order(errors)
     return " ".join(map(number, errors)) + (" · exact" if fitted is None else f" · **{decimal(fitted)}**")
-
-
-def table(heads, rows):
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
 def quantity_of(name):
@@ -89,19 +83,7 @@ def names(methods):
         stem, _, given = method.partition(", ")
         groups.setdefault(stem, []).append(given)
     told = [f"`{stem}`" + (f" ({', '.join(given)})" if given != [""] else "") for stem, given in groups.items()]
-    return " and ".join(filter(None, [", ".join(told[:-1]), told[-1]])) if told else "none"
-
-
-def paragraphs(text):
-    """Lines of at most 120, blank lines and list items kept apart."""
-    wrap = textwrap.TextWrapper(120, break_long_words=False, break_on_hyphens=False)
-    result = []
-    for paragraph in text.strip().split("\n\n"):
-        for item in re.split(r"\n(?=- )", paragraph):
-            wrap.subsequent_indent = "  " if item.startswith("- ") else ""
-            result.append(wrap.fill(" ".join(item.split())))
-        result.append("")
-    return "\n".join(result).strip()
+    return listed(told)
 
 
 def overview(figures, methods):
@@ -147,13 +129,13 @@ def conclusions(figures):
     always = [stem for stem, normals in given.items() if list(normals) == [""] and stem in CURVATURES]
     always = [name for name in always if all(figures.converges(kind, name) for kind in KINDS)]
     orders = {
-        kind: [fitted for name in ONE_RING for fitted in figures.orders(kind, name)] for kind in KINDS
+        kind: [fitted for name in AVERAGES for fitted in figures.orders(kind, name)] for kind in KINDS
     }
     spans = {kind: f"{decimal(min(found))} to {decimal(max(found))}" for kind, found in orders.items()}
     best = {}
     for kind in KINDS:
         for index, surface in enumerate(SURFACES):
-            winner = min(ONE_RING, key=lambda name: figures.of(kind, name)[index][-1])
+            winner = min(AVERAGES, key=lambda name: figures.of(kind, name)[index][-1])
             best.setdefault(winner, []).append(f"{surface.name} {kind}")
 
     compared = ("uniform", "angle", "area", "centroid")
@@ -190,12 +172,13 @@ def conclusions(figures):
         + ", ".join(f"{verdict(figures.wins([kind], ours, rival))} on {TITLES[kind]}" for kind in KINDS)
         for label, rival in rivals.items()
     )
+    further = "".join(f" `{name}` is of order {figures.span('irregular', name)} there." for name in OTHERS)
     return paragraphs(f"""
 ## What it says
 
-- **Normals.** One-ring weights are of order {spans["irregular"]} on irregular meshes and {spans["quads"]} on quads:
+- **Normals.** One-ring averages are of order {spans["irregular"]} on irregular meshes and {spans["quads"]} on quads:
 the first. On regular ones symmetry makes it {spans["regular"]}. Jets of degree 1, 2, 3 and 4 are of orders
-{", ".join(figures.span("irregular", f"jet {degree}") for degree in (1, 2, 3, 4))} on irregular meshes.
+{", ".join(figures.span("irregular", f"jet {degree}") for degree in (1, 2, 3, 4))} on irregular meshes.{further}
 
 - **Curvatures that do not converge on irregular meshes** (of order below {CONVERGES} on at least one surface):
 {names(stalled["irregular"])}.
@@ -218,7 +201,7 @@ cases, mostly holds from six of ten on, is undecided above four of ten, and does
 
 - *N_CM is the best of the normals.* Against the four weights that the paper compares it with (`uniform`, `angle`,
 `area`, `centroid`): {weights}. Against two that it does not compare, N_CM has the smaller error: {others}. The
-smallest error of all one-ring weights at the finest size is that of {winners}.
+smallest error of all one-ring averages at the finest size is that of {winners}.
 
 - *Symmetric parabolas are better than circles* as sections, here put together by least squares: {sections} normals.
 In {alike} cases the two errors differ by less than 2 %. This is about smooth surfaces; what the paper says about
@@ -233,9 +216,10 @@ def report(errors, counts):
     figures = Figures(errors)
     sizes = "; ".join(f"{name} {', '.join(map(str, each))}" for name, each in counts.items())
     parts = [
-        "# Accuracy on smooth surfaces",
+        "# Convergence on smooth surfaces",
         paragraphs(f"""
-Written by `make accuracy`, from one mesh of each kind and size. Noise, creases and boundaries are not in it.
+Written by `make accuracy`, from one mesh of each kind and size. Noise, creases and boundaries are in
+[accuracy.md](accuracy.md), not here.
 
 ## What was measured
 

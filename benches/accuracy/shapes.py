@@ -1,7 +1,7 @@
-"""The suite's smooth surfaces: where a pair of parameters lies, and the gradient and Hessian of a function that is 0 there.
+"""The suite's smooth surfaces: where a pair of parameters lies, and gradient and Hessian of a function that is 0 there.
 
-`place` maps parameters to points so that du x dv points outwards; `ranges` says how far they go, `closed` in which of them
-the surface closes up, `aspect` how many times more columns than rows a grid of square cells has.
+`place` maps parameters to points so that du x dv points outwards; `ranges` says how far they go, `closed` in which of
+them the surface closes up, `aspect` how many times more columns than rows a grid of square cells has.
 """
 
 import numpy

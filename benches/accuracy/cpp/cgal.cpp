@@ -1,7 +1,7 @@
 // Vertex normals and osculating jets of CGAL.
 //
-// The rings of a jet are those of CGAL's example Mesh_estimation: vertices joined by edges, and as many rings as are wanted,
-// or more until there are as many points as the polynomial has coefficients.
+// The rings of a jet are those of CGAL's example Mesh_estimation: vertices joined by edges, and as many rings as are
+// wanted, or more until there are as many points as the polynomial has coefficients.
 
 // CGAL's default are closed formulas of eigenvectors, which lose half the digits.
 #define DO_NOT_USE_EIGEN_COMPUTEDIRECT_FOR_DIAGONALIZATION
@@ -36,7 +36,9 @@ public:
       }
       peer::must(mesh.add_face(corners) != Mesh::null_face());
     });
+    // These tell the sides of jets apart.
     normals = mesh.add_property_map<Vertex, Vector>("v:normal", Vector(0, 0, 0)).first;
+    CGAL::Polygon_mesh_processing::compute_vertex_normals(mesh, normals);
   }
 
   static std::string name() { return "CGAL " CGAL_VERSION_STR; }
@@ -51,7 +53,8 @@ public:
     const unsigned jets[][2] = {{2, 1}, {2, 2}, {3, 2}, {3, 3}, {4, 3}};
     for (const auto &[degree, rings] : jets) {
       const std::string name = "Monge_via_jet_fitting " + std::to_string(degree) + "-" + std::to_string(rings);
-      methods.push_back({name, "both", [this, degree = degree, rings = rings](double *out) { jet(degree, rings, out); }});
+      const auto run = [this, degree = degree, rings = rings](double *out) { jet(degree, rings, out); };
+      methods.push_back({name, "both", run});
     }
     return methods;
   }
@@ -83,7 +86,8 @@ private:
     }
   }
 
-  void gather(Vertex centre, unsigned rings, std::size_t enough, std::vector<unsigned> &seen, std::vector<Vertex> &found) {
+  void gather(Vertex centre, unsigned rings, std::size_t enough, std::vector<unsigned> &seen,
+              std::vector<Vertex> &found) const {
     const unsigned mark = centre.idx() + 1;
     found.assign(1, centre);
     seen[centre.idx()] = mark;

@@ -1,4 +1,4 @@
-// Vertex normals of OpenMesh, in double precision: the normal that its meshes have by default (fast), and its two others.
+// Vertex normals of OpenMesh, in double precision: what its meshes have by default (fast), and its two others.
 
 #if defined(__GNUC__) && !defined(__clang__)
 // OpenMesh fills its arrays with vectors that it leaves uninitialised, which gcc reports after inlining.

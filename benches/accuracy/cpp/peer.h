@@ -1,9 +1,10 @@
 // A library that is compared with, as a program: meshes come in on standard input, results leave on standard output,
 // until the input ends. All numbers are little-endian, as the machine has them.
 //
-// In:  int64 vertices, triangles, quads; double positions[vertices][3]; int32 triangles[][3], quads[][4]
-// Out: for each method, in the order that `--list` prints behind the library's name and version: double seconds of CPU time; then its results, vertex after
-//      vertex: a normal (3 doubles), k1 and k2 (2 doubles), or all five
+// In:  int64 methods (bit 0 for the first), vertices, triangles, quads; double positions[vertices][3];
+//      int32 triangles[][3], quads[][4]
+// Out: for each method that is wanted, in the order that `--list` prints behind the library's name and version:
+//      double seconds of CPU time; then its results, vertex after vertex: a normal (3 doubles), k1 and k2 (2), or all 5
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ struct Input {
   }
 };
 
-// A method of a library; `results` tells its kind, "normal", "curvature" or "both". It writes `width()` doubles a vertex.
+// A method of a library, which writes `width()` doubles a vertex: `results` is "normal", "curvature" or "both".
 struct Method {
   std::string name, results;
   std::function<void(double *)> run;
@@ -66,15 +67,20 @@ int serve(int arguments, char **argument) {
     }
     return EXIT_SUCCESS;
   }
-  std::int64_t counts[3];
-  while (std::fread(counts, sizeof *counts, 3, stdin) == 3) {
+  std::int64_t head[4];
+  while (std::fread(head, sizeof *head, 4, stdin) == 4) {
     Input input;
-    read(input.positions, 3 * counts[0]);
-    read(input.triangles, 3 * counts[1]);
-    read(input.quads, 4 * counts[2]);
+    read(input.positions, 3 * head[1]);
+    read(input.triangles, 3 * head[2]);
+    read(input.quads, 4 * head[3]);
     Library library{input};
     std::vector<double> results;
     for (const Method &method : library.methods()) {
+      const bool wanted = head[0] & 1;
+      head[0] >>= 1;
+      if (!wanted) {
+        continue;
+      }
       results.assign(input.vertices() * method.width(), 0.0);
       const std::clock_t start = std::clock();
       method.run(results.data());

@@ -24,7 +24,7 @@ def of_principal(k1, k2):
 class PeerEstimator:
     """A method of a peer. It works on what the peer makes of a mesh."""
 
-    fixed = True
+    fixed, gives = True, ("normal", "k", "mean", "gaussian")
 
     def __init__(self, peer, name, function):
         self.peer, self.name, self.function = peer, f"{peer.name} {name}", function
@@ -42,7 +42,7 @@ class PeerEstimator:
         handle = self.handle(subject)
         start = time.process_time()
         self.function(handle)
-        return time.process_time() - start
+        return (time.process_time() - start) / getattr(self.function, "passes", 1)
 
 
 class Libigl:
@@ -114,6 +114,7 @@ class Vcg:
                 values.append(meshes.current_mesh().vertex_scalar_array())
             return of_principal(numpy.maximum(*values), numpy.minimum(*values))
 
+        run.passes = 2
         return run
 
     def discrete(self, meshes):
@@ -213,7 +214,7 @@ class MeshLib:
 
 
 class Program:
-    """A library in C++: see cpp/peer.h. All its methods run at once."""
+    """A library in C++: see cpp/peer.h. All its methods run at once, unless they are timed."""
 
     def __init__(self, path):
         self.path, self.process = path, None
@@ -227,15 +228,19 @@ class Program:
         return lambda found: found[name][1]
 
     def prepare(self, sample):
-        """Of each method, the seconds that it took and what it found."""
+        return self.ask(sample, self.results)
+
+    def ask(self, sample, wanted):
+        """Of each method wanted, the seconds that it took and what it found."""
         if self.process is None:
             self.process = subprocess.Popen([self.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        counts = numpy.array([len(each) for each in (sample.positions, sample.triangles, sample.quads)])
+        bits = sum((name in wanted) << bit for bit, name in enumerate(self.results))
+        head = numpy.array([bits, *map(len, (sample.positions, sample.triangles, sample.quads))])
         faces = [numpy.ascontiguousarray(each, numpy.int32) for each in (sample.triangles, sample.quads)]
-        for array in (counts, numpy.ascontiguousarray(sample.positions), *faces):
+        for array in (head, numpy.ascontiguousarray(sample.positions), *faces):
             self.process.stdin.write(array.tobytes())
         self.process.stdin.flush()
-        return {name: self.read(len(sample.positions), results) for name, results in self.results.items()}
+        return {name: self.read(len(sample.positions), self.results[name]) for name in self.results if name in wanted}
 
     def read(self, count, results):
         seconds = float(self.numbers(1)[0])
@@ -252,11 +257,9 @@ class Program:
 
 class ProgramEstimator(PeerEstimator):
     def seconds(self, subject):
-        """As the program says; run anew for its first method, and with it all others."""
+        """As the program says."""
         name = self.name.removeprefix(f"{self.peer.name} ")
-        if name == next(iter(self.peer.results)):
-            subject.handles.pop(self.peer.name, None)
-        return self.handle(subject)[name][0]
+        return self.peer.ask(subject.sample, [name])[name][0]
 
 
 PROGRAMS = {"OpenMesh": "openmesh", "CGAL": "cgal"}
