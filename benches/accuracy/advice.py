@@ -21,7 +21,7 @@ SITUATIONS = {
     "at the boundary, noise": lambda row: row.location == "boundary" and row.noise > 0,
 }
 BUDGETS = (3, 10, 30, 100)  # times the fastest
-USELESS = 2  # times the best
+MUCH = 2
 
 
 def one_ring(name):
@@ -71,46 +71,59 @@ class Advice:
             ratio, name = self.best(
                 quantity, [name for name in costs if costs[name] <= budget * fastest and "exact" not in name]
             )
-            told.append((name, ratio, budget))
+            if not told or name != told[-1][0]:
+                told.append((name, ratio, budget))
         return told
 
-    def useless(self, quantity):
-        return [
-            name
-            for name in self.figures.fixed(quantity)
-            if name in self.own
-            and all((self.ratio(quantity, name, where) or USELESS) >= USELESS for where in SITUATIONS.values())
-        ]
+    def outdone(self, quantity, name):
+        """Whether another one, of the library too, is no dearer and much better, and this one nowhere near the best."""
+        costs, ratio = self.figures.costs[quantity], self.ratio(quantity, name)
+        cheaper = [other for other in self.figures.fixed(quantity) if other in self.own and costs[other] <= costs[name]]
+        best = min(self.ratio(quantity, other) for other in cheaper)
+        least = min(filter(None, (self.ratio(quantity, name, where) for where in SITUATIONS.values())))
+        return MUCH * best <= ratio and least >= MUCH
 
     def text(self):
         """Statements, all from figures."""
         items = [self.unknown(quantity) for quantity in ("normal", "k")]
         items += [self.by_price(quantity) for quantity in ("normal", "k")]
-        return paragraphs("".join([*items, self.never()]))
+        return paragraphs("".join([*items, self.one_ring(), self.not_for_accuracy()]))
 
     def unknown(self, quantity):
         _, name = self.best(quantity, self.figures.names(quantity))
         ratio, fixed = self.best(quantity, self.figures.fixed(quantity))
         found = self.figures.summary(quantity, name)
+        other = f" The best single fixed one is `{fixed}`, at {ratio:.2f} times." if fixed != name else ""
         return f"""
 - **If nothing is known of the mesh, {QUANTITIES[quantity]}: `{name}`.** Its error is {found.mean:.2f} times that of the
 best fixed estimator of the row in the geometric mean, within 1.2 times in {percent(found.close)} of the rows and within
-{found.ninetieth:.1f} times in nine of ten. The best single fixed one is `{fixed}`, at {ratio:.2f} times: that is what
-it costs not to know which one is the best."""
+{found.ninetieth:.1f} times in nine of ten.{other}"""
 
     def by_price(self, quantity):
         steps = listed(f"`{name}` up to {budget} times ({ratio:.2f})" for name, ratio, budget in self.within(quantity))
         return f"""
-- **By price, {QUANTITIES[quantity]}:** the best that costs no more than so many times the cheapest is {steps}; in
-brackets their ratios."""
+- **By price, {QUANTITIES[quantity]}:** the best that costs no more than so many times the cheapest is {steps},
+with its ratio in brackets."""
 
-    def never(self):
-        useless = [name for quantity in ("normal", "k") for name in self.useless(quantity)]
-        fixed = [name for quantity in ("normal", "k") for name in self.figures.fixed(quantity)]
-        some = {stem(name) for name in fixed if name not in useless}
-        never = [f"`{name}`" for name in dict.fromkeys(map(stem, useless)) if name not in some]
-        if not never:
+    def one_ring(self):
+        (normal, first), (k, second) = (
+            self.best(quantity, filter(one_ring, self.figures.names(quantity))) for quantity in ("normal", "k")
+        )
+        return f"""
+- **One ring only:** `{first}` for normals ({normal:.2f}), `{second}` for k1, k2 ({k:.2f})."""
+
+    def not_for_accuracy(self):
+        """Methods that are outdone whatever they are given."""
+        stays, goes = set(), {}
+        for quantity in ("normal", "k"):
+            for name in self.figures.fixed(quantity):
+                if name in self.own:
+                    outdone = self.outdone(quantity, name)
+                    goes.setdefault(stem(name)) if outdone else stays.add(stem(name))
+        told = [f"`{name}`" for name in goes if name not in stays]
+        if not told:
             return ""
         return f"""
-- **Not for accuracy:** whatever normals they are given, in no situation below do these come within {USELESS} times the
-best: {listed(never)}. They are there to match other programs and papers, for their integrals, or for speed."""
+- **Not for accuracy:** whatever normals they are given, {listed(told)} are within twice the best in no situation below,
+and something that costs no more has at most half their error over the whole half. They are there to match other
+programs and papers, or for their integrals."""

@@ -58,14 +58,14 @@ class Normal(Own):
 
 
 class Curvature(Own):
-    """A curvature of the library, of the normals `given` if it takes any; `leans` if it improves on the normals."""
+    """A curvature of the library, of the normals `given` if it takes any."""
 
-    def __init__(self, name, method, given=None, fixed=True, leans=False, **options):
+    gives = ("k", "mean", "gaussian")
+
+    def __init__(self, name, method, given=None, fixed=True, **options):
         self.name, self.method, self.given = name + (f", {given}" if given else ""), method, given
         self.options, self.fixed = options, fixed and given != "exact"
         self.wanted = ("gaussian",) if method == "angle-defect" else ("k1", "k2", "mean", "gaussian")
-        self.wanted += ("normal",) if leans else ()
-        self.gives = ("k", "mean", "gaussian") + (("normal",) if leans else ())
 
     def run(self, subject):
         options = dict(self.options)
@@ -151,7 +151,7 @@ def candidate(name):
     if method in WEIGHTS:
         found.append(Normal(name, method, fixed=False, **options))
     if method in METHODS:
-        found.append(Curvature(name, method, fixed=False, leans=method not in WEIGHTS, **options))
+        found.append(Curvature(name, method, fixed=False, **options))
     return found
 
 

@@ -29,10 +29,7 @@ def degrees_between(a, b):
 
 
 def normal_error(topology, mesh, options):
-    if "method" in options:
-        normals = topology.curvatures(mesh.positions, options["method"], ("normal",))["normal"]
-    else:
-        normals, _ = topology.normals(mesh.positions, **options)
+    normals, _ = topology.normals(mesh.positions, **options)
     return {"normal": rms(degrees_between(normals, mesh.exact.normal)[mesh.counted])}
 
 

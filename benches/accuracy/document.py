@@ -28,8 +28,6 @@ def measured(found, figures):
     rows = {name: sum(row.surface in surfaces for row in figures.best["normal"]) for name, surfaces in HALVES.items()}
     counts = [len(figures.fixed(quantity)) for quantity in ("normal", "k")]
     return paragraphs(f"""
-## What was measured
-
 - **Surfaces.** Patches of a sphere, an ellipsoid (1 : 1.5 : 2.2) and a cylinder, a torus, a saddle, a cubic and a
 sine as height fields; each *regular* (a grid, all diagonals alike), *irregular* (parameters moved by up to 30 %,
 diagonals at random), *stretched* (as irregular, cells five times as long as high) and mostly of *quads* (moved by up
@@ -107,7 +105,7 @@ ANGLES = {
 
 SITUATIONS = paragraphs("""
 The best of each kind, and its ratio to the best fixed estimator of each row: geometric means over the rows of the
-verification half. Not even the best of a situation is the best of all its rows.
+verification half. Where that of a fixed one is above 1, no single one is the best in all rows of the situation.
 """)
 
 PRICE = paragraphs("""

@@ -8,11 +8,11 @@ import numpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "peers"))
 from umbilic import METHODS, WEIGHTS, Umbilic  # noqa: E402, F401
 
-# Names, and the options of Mesh.normals; or the curvature whose normals these are.
-ONE_RING = {weight: {"weight": weight} for weight in WEIGHTS if not weight.endswith("jet")}
-ONE_RING |= {name: {"method": name} for name in ("tilted-sections",) if name in METHODS}
-NORMALS = ONE_RING | {f"jet {degree}": {"weight": "jet", "degree": degree} for degree in (1, 2, 3, 4)}
-NORMALS |= {name: {"weight": name} for name in ("adaptive-jet",) if name in WEIGHTS}
+# Names, and the options of Mesh.normals.
+FITS = ("jet", "adaptive-jet", "tilted-sections")
+AVERAGES = {weight: {"weight": weight} for weight in WEIGHTS if weight not in FITS}
+NORMALS = AVERAGES | {f"jet {degree}": {"weight": "jet", "degree": degree} for degree in (1, 2, 3, 4)}
+NORMALS |= {f"normal of {weight}": {"weight": weight} for weight in FITS if weight in WEIGHTS and weight != "jet"}
 
 # Normals that curvatures are given: N_CM, jets of degree 3, and the exact ones.
 GIVEN = {"N_CM": {"weight": "conformal"}, "jet": {"weight": "jet"}, "exact": {}}

@@ -1,7 +1,7 @@
 """docs/convergence.md from errors. What the text says of a method follows from its figures."""
 
 import numpy
-from estimators import CURVATURES, NORMALS, ONE_RING
+from estimators import AVERAGES, CURVATURES, NORMALS
 from markdown import listed, paragraphs, table
 from meshes import KINDS
 from surfaces import SURFACES
@@ -9,8 +9,7 @@ from surfaces import SURFACES
 CONVERGES = 0.3  # the order from which a method is said to converge
 EXACT = 1e-11  # an error below this is rounding
 TITLES = {"regular": "regular meshes", "irregular": "irregular meshes", "quads": "meshes mostly of quads"}
-AVERAGES = [name for name in ONE_RING if "weight" in NORMALS[name]]
-OTHERS = [name for name in ("tilted-sections", "adaptive-jet") if name in NORMALS]
+OTHERS = [name for name in NORMALS if name.startswith("normal of ")]
 
 
 def order(errors):
@@ -172,7 +171,7 @@ def conclusions(figures):
         + ", ".join(f"{verdict(figures.wins([kind], ours, rival))} on {TITLES[kind]}" for kind in KINDS)
         for label, rival in rivals.items()
     )
-    further = "".join(f" `{name}` is of order {figures.span('irregular', name)} there." for name in OTHERS)
+    further = "".join(f" The {name} is of order {figures.span('irregular', name)} there." for name in OTHERS)
     return paragraphs(f"""
 ## What it says
 

@@ -1,7 +1,7 @@
 """The experiment of Max 1999: normals at the centres of random one-rings on random cubic height fields, by valence."""
 
 import numpy
-from contestants import AVERAGES, METHODS, Umbilic
+from contestants import AVERAGES, WEIGHTS, Umbilic
 from scores import degrees_between, rms
 
 COUNT = 40_000
@@ -49,15 +49,13 @@ def error(normals):
 def experiment(library):
     """Errors by angles, estimator and valence."""
     umbilic, found = Umbilic(library), {}
+    weights = AVERAGES | {name: name for name in ("tilted-sections",) if name in WEIGHTS}
     for angles in ANGLES:
         random, rows = numpy.random.RandomState(5), found.setdefault(angles, {})
         for valence in VALENCES:
             positions, triangles = rings(valence, angles, random)
             with umbilic.mesh(triangles, len(positions)) as mesh:
-                for name, weight in AVERAGES.items():
+                for name, weight in weights.items():
                     normals, _ = mesh.normals(positions, weight, threads=1)
                     rows.setdefault(name, []).append(error(normals))
-                if "tilted-sections" in METHODS:
-                    normals = mesh.curvatures(positions, "tilted-sections", ("normal",), threads=1)["normal"]
-                    rows.setdefault("tilted-sections", []).append(error(normals))
     return found
