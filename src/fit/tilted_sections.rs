@@ -27,7 +27,7 @@ use crate::sweep::{Ring, RingFaces};
 /// The unknowns `a, b, d, p, q`.
 const K: usize = 5;
 
-/// What is added to the diagonal for `a, b, d`, per weight.
+/// What is added to the diagonal for `a` and `d`, per weight.
 const RIDGE: f64 = 1e-9;
 
 /// And for the tilt.
@@ -96,9 +96,9 @@ impl<V: Vector> TiltedSums<V> {
     /// Solves.
     #[inline(always)]
     pub fn finish(mut self, x: Vector3<V>, y: Vector3<V>, normal: Vector3<V>) -> Tilted<V> {
-        for k in 0..K {
-            let ridge = self.weight * V::constant(if k < 3 { RIDGE } else { TILT_RIDGE });
-            self.matrix[k][k] = self.matrix[k][k] + ridge;
+        // `b` stands twice in the operator, so that the ridge is the same in all directions.
+        for (k, ridge) in [RIDGE, 2.0 * RIDGE, RIDGE, TILT_RIDGE, TILT_RIDGE].into_iter().enumerate() {
+            self.matrix[k][k] = self.matrix[k][k] + self.weight * V::constant(ridge);
         }
         let factored = factor(&mut self.matrix);
         let definite = factored.definite;
