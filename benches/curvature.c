@@ -38,11 +38,14 @@ typedef struct variant {
 
 static const variant VARIANTS[] = {
     {"normals N_CM", NORMALS, 0, 0, 0, UMB_WEIGHT_CONFORMAL, 0, 0},
+    {"normals by tilted sections", NORMALS, 0, 0, 0, UMB_WEIGHT_TILTED_SECTIONS, 0, 0},
     {"normals by jets", NORMALS, 0, 0, 0, UMB_WEIGHT_JET, 3, 2},
+    {"normals by adaptive jets, 4 rings", NORMALS, 0, 0, 0, UMB_WEIGHT_ADAPTIVE_JET, 0, 4},
     {"edge sections", EDGE_SECTIONS, 0, 0, 0, UMB_SECTION_SYMMETRIC_PARABOLA, 0, 0},
     {"edge sections", EDGE_SECTIONS, 1, 0, 0, UMB_SECTION_SYMMETRIC_PARABOLA, 0, 0},
     {"direction sections, one each", DIRECTION_SECTIONS, 0, 0, 0, 0, 0, 0},
     {"direction sections, one each", DIRECTION_SECTIONS, 1, 0, 0, 0, 0, 0},
+    {"tilted sections", CURVATURES, 0, UMB_CURVATURE_TILTED_SECTIONS, TENSOR, 0, 0, 0},
     {"least squares", CURVATURES, 0, UMB_CURVATURE_LEAST_SQUARES, TENSOR, 0, 0, 0},
     {"least squares", CURVATURES, 1, UMB_CURVATURE_LEAST_SQUARES, TENSOR, 0, 0, 0},
     {"least squares, circles", CURVATURES, 1, UMB_CURVATURE_LEAST_SQUARES, TENSOR, UMB_SECTION_CIRCLE, 0, 0},
@@ -67,9 +70,12 @@ static const variant VARIANTS[] = {
     {"Goldfeather", CURVATURES, 0, UMB_CURVATURE_GOLDFEATHER, TENSOR, 0, 0, 0},
     {"Goldfeather", CURVATURES, 1, UMB_CURVATURE_GOLDFEATHER, TENSOR, 0, 0, 0},
     {"jets 2, 2 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 2, 2},
-    {"jets 3, 2 rings (default)", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 3, 2},
-    {"jets 3, 2 rings (default)", CURVATURES, 1, UMB_CURVATURE_JET, TENSOR, 0, 3, 2},
+    {"jets 3, 2 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 3, 2},
+    {"jets 3, 2 rings", CURVATURES, 1, UMB_CURVATURE_JET, TENSOR, 0, 3, 2},
     {"jets 4, 3 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 4, 3},
+    {"adaptive jets, 3 rings", CURVATURES, 0, UMB_CURVATURE_ADAPTIVE_JET, TENSOR, 0, 0, 3},
+    {"adaptive jets, 4 rings", CURVATURES, 0, UMB_CURVATURE_ADAPTIVE_JET, TENSOR, 0, 0, 4},
+    {"adaptive jets, rings by the noise (default)", CURVATURES, 0, UMB_CURVATURE_ADAPTIVE_JET, TENSOR, 0, 0, 0},
 };
 enum { COUNT = sizeof VARIANTS / sizeof VARIANTS[0] };
 
@@ -208,26 +214,29 @@ static void gather(const workspace *w, size_t step, size_t count, unsigned rings
 }
 
 static void bench_cgal(const workspace *w, const arguments *given) {
+  /* Adaptive jets are compared with CGAL's of degree 4 over three rings, vertex by vertex: theirs are other numbers. */
   static const variant jets[] = {
       {"2, 2 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 2, 2},
       {"3, 2 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 3, 2},
       {"4, 3 rings", CURVATURES, 0, UMB_CURVATURE_JET, TENSOR, 0, 4, 3},
+      {"4, 3 rings, to adaptive jets, 4 rings", CURVATURES, 0, UMB_CURVATURE_ADAPTIVE_JET, TENSOR, 0, 0, 4},
   };
   const mesh *m = w->m;
   size_t count = m->vertex_count < SAMPLE ? m->vertex_count : SAMPLE, step = m->vertex_count / count;
   int rounds = given->rounds < 7 ? given->rounds : 7;
   printf("  %-46s %12s %12s %21s\n", "", "ns/triangle", "to umbilic", "(quartiles)");
-  for (int v = 0; v < 3; v++) {
+  for (int v = 0; v < 4; v++) {
+    int adaptive = jets[v].method == UMB_CURVATURE_ADAPTIVE_JET;
     uint32_t *members;
     size_t *offsets = allocate((count + 1) * sizeof *offsets);
     double *k1 = allocate(count * sizeof *k1), worst = 0, size = 0;
-    gather(w, step, count, jets[v].rings, &members, offsets);
+    gather(w, step, count, adaptive ? 3 : jets[v].rings, &members, offsets);
     row r = new_row(rounds);
     for (int round = -1; round < rounds; round++) {
       double start = seconds();
       run(w, &jets[v]);
       double middle = seconds();
-      cgal_jets(m->positions_double, w->normals, members, offsets, count, jets[v].degree, k1);
+      cgal_jets(m->positions_double, w->normals, members, offsets, count, adaptive ? 4 : jets[v].degree, k1);
       double end = seconds();
       if (round < 0) continue;
       /* A vertex's share of the time is that of the triangles that there are for each. */

@@ -140,7 +140,7 @@ def fixed():
     return [*normals(), *curvatures()]
 
 
-CANDIDATES = ("adaptive-jet 4", "adaptive-jet 3", "tilted-sections")
+CANDIDATES = ("adaptive-jet", "adaptive-jet 4", "adaptive-jet 3", "tilted-sections")
 
 
 def candidate(name):

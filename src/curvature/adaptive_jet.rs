@@ -71,6 +71,9 @@ impl Sink for Results<'_> {
     fn freedom(&self) -> bool {
         self.outputs.degrees_of_freedom.is_some()
     }
+    fn residual(&self) -> bool {
+        self.outputs.residual.is_some()
+    }
 
     #[inline(always)]
     fn write<V: Vector<Scalar = f64>>(

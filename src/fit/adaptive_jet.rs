@@ -85,17 +85,22 @@ const NOISY_PART: f64 = 0.2;
 const ROWS: usize = 4;
 
 /// Rows of numbers a point.
-const COLUMNS: usize = 5;
+const COLUMNS: usize = 6;
 
 /// Points as heights over a tangent plane, in units of the vertex's mean edge length; the vertex itself first. Lanes that have fewer
 /// points than others have zeros, and weight 0.
 pub(super) struct Heights<'s, V> {
+    /// The point's place in the plane; from [`weigh`] on in the coordinates of degree 2 and more.
     pub u: &'s mut [V],
+    /// See `u`.
     pub v: &'s mut [V],
+    /// The height.
     pub w: &'s mut [V],
-    /// The variance of the noise.
-    pub noise: &'s mut [V],
-    /// 1 over the variance with which a point counts.
+    /// What `u` and `v` are to be multiplied with to be the place in the plane.
+    back: &'s mut [V],
+    /// The variance with which the point counts; before [`weigh`], that of its noise.
+    pub variance: &'s mut [V],
+    /// One over the variance, or less for a point that is off.
     weight: &'s mut [V],
 }
 
@@ -117,9 +122,11 @@ impl<'s, V: Vector<Scalar = f64>> Heights<'s, V> {
         let (u, rest) = scratch.split_at_mut(rows);
         let (v, rest) = rest.split_at_mut(rows);
         let (w, rest) = rest.split_at_mut(rows);
-        let (noise, rest) = rest.split_at_mut(rows);
+        let (back, rest) = rest.split_at_mut(rows);
+        let (variance, rest) = rest.split_at_mut(rows);
         let (weight, rest) = rest.split_at_mut(rows);
-        (Heights { u, v, w, noise, weight }, rest)
+        back.fill(V::one());
+        (Heights { u, v, w, back, variance, weight }, rest)
     }
 
     /// How many rows there are.
@@ -224,38 +231,27 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
     })
 }
 
-/// `(u, v)` in the coordinates of degree 2 and more, the factor that leads back, and `ρ²`.
-#[inline(always)]
-fn coordinates<V: Vector<Scalar = f64>>(chosen: Coordinates, u: V, v: V, w: V) -> (V, V, V, V) {
-    let flat = u * u + v * v;
-    match chosen {
-        Coordinates::Height => (u, v, V::one(), flat),
-        Coordinates::Circle => {
-            let squared = flat + w * w;
-            let directed = V::constant(NO_DIRECTION).lt(flat);
-            let back = (V::select(directed, flat, V::one()) / V::select(directed, squared, V::one())).sqrt();
-            let factor = V::one() / back;
-            (u * factor, v * factor, back, squared)
-        }
-    }
-}
-
-/// Sets the weights of all points: one over the variance with which each counts.
+/// Goes over to the coordinates of the setting, and sets the variances and weights of all points. To be called once.
 #[inline(always)]
 pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setting: &Setting<V>) {
     for row in 0..heights.len() {
-        let variance = variance(heights, setting, row);
+        let (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
+        let flat = u * u + v * v;
+        let mut squared = flat;
+        if setting.coordinates == Coordinates::Circle {
+            squared = flat + w * w;
+            let directed = V::constant(NO_DIRECTION).lt(flat);
+            let (flat, squared) = (V::select(directed, flat, V::one()), V::select(directed, squared, V::one()));
+            let inverse = V::one() / (flat * squared);
+            let back = (flat * flat * inverse).sqrt();
+            let forth = back * (squared * squared * inverse);
+            (heights.u[row], heights.v[row], heights.back[row]) = (u * forth, v * forth, back);
+        }
+        let fourth = squared * squared;
+        heights.variance[row] = heights.variance[row] + setting.sizes_squared[3] * (fourth * fourth * squared);
         let there = V::constant(row as f64).lt(setting.count);
-        heights.weight[row] = V::select(there, V::one() / variance, V::zero());
+        heights.weight[row] = V::select(there, V::one() / heights.variance[row], V::zero());
     }
-}
-
-/// `σ² + τ₅² ρ¹⁰`
-#[inline(always)]
-fn variance<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, setting: &Setting<V>, row: usize) -> V {
-    let (.., squared) = coordinates(setting.coordinates, heights.u[row], heights.v[row], heights.w[row]);
-    let fourth = squared * squared;
-    heights.noise[row] + setting.sizes_squared[3] * (fourth * fourth * squared)
 }
 
 /// Solves for the coefficients, with the weights that are set.
@@ -265,7 +261,7 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
     setting: &Setting<V>,
     with_variances: bool,
 ) -> Coefficients<V> {
-    let Moments { plain, back, back_twice, right } = moments(heights, setting.coordinates);
+    let Moments { plain, back, back_twice, right } = moments(heights);
     // A product of two terms is a monomial of the summed degrees, with a factor `back` for each that is linear.
     let mut matrix = [[V::zero(); TERMS]; TERMS];
     for row in 0..TERMS {
@@ -323,7 +319,7 @@ struct Moments<V> {
 }
 
 #[inline(always)]
-fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinates) -> Moments<V> {
+fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>) -> Moments<V> {
     let mut sums = Moments {
         plain: [V::zero(); first_of(9)],
         back: [V::zero(); first_of(6)],
@@ -342,9 +338,8 @@ fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinate
         );
         let mut right_back = right;
         for (row, index) in rows.enumerate() {
-            let (height, weight) = (heights.w[index], heights.weight[index]);
-            let leads_back;
-            (u[row], v[row], leads_back, _) = coordinates(chosen, heights.u[index], heights.v[index], height);
+            let (height, weight, leads_back) = (heights.w[index], heights.weight[index], heights.back[index]);
+            (u[row], v[row]) = (heights.u[index], heights.v[index]);
             plain[row] = weight;
             back[row] = weight * leads_back;
             twice[row] = back[row] * leads_back;
@@ -399,40 +394,22 @@ fn product<V: Vector>(a: &[V; ROWS], b: &[V; ROWS]) -> [V; ROWS] {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
 }
 
-/// What the polynomial leaves of the height of a point.
+/// The square of what the polynomial leaves of the height of a point; 0 in lanes that do not have it.
 #[inline(always)]
-fn residual<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, chosen: Coordinates, c: &[V; TERMS], row: usize) -> V {
-    let (u, v, back, _) = coordinates(chosen, heights.u[row], heights.v[row], heights.w[row]);
-    let mut height = c[0] + (c[1] * u + c[2] * v) * back;
-    // Degree by degree, Horner's rule in v/u without the division.
-    let (mut power, mut v_power);
-    let mut u_powers = [V::one(); 5];
-    for degree in 1..5 {
-        u_powers[degree] = u_powers[degree - 1] * u;
-    }
-    for degree in 2..=4 {
-        power = V::zero();
-        v_power = V::one();
-        for term in 0..=degree {
-            power = power + c[first_of(degree) + term] * (u_powers[degree - term] * v_power);
-            v_power = v_power * v;
-        }
-        height = height + power;
-    }
-    heights.w[row] - height
-}
-
-/// `r² / variance` of a point, and `r²`; 0 in lanes that do not have it.
-#[inline(always)]
-fn misfit<V: Vector<Scalar = f64>>(
+fn squared_residual<V: Vector<Scalar = f64>>(
     heights: &Heights<'_, V>,
     setting: &Setting<V>,
     c: &[V; TERMS],
     row: usize,
-) -> (V, V) {
-    let r = residual(heights, setting.coordinates, c, row);
-    let square = V::select(V::constant(row as f64).lt(setting.count), r * r, V::zero());
-    (square / variance(heights, setting, row), square)
+) -> V {
+    let (u, v) = (heights.u[row], heights.v[row]);
+    let (uu, uv, vv) = (u * u, u * v, v * v);
+    let second = c[3] * uu + c[4] * uv + c[5] * vv;
+    let third = (c[6] * uu + c[7] * uv + c[8] * vv) * u + c[9] * vv * v;
+    let fourth = (c[10] * uu + c[11] * uv + c[12] * vv) * uu + (c[13] * uv + c[14] * vv) * vv;
+    let first = (c[1] * u + c[2] * v) * heights.back[row];
+    let left = heights.w[row] - (c[0] + first + second + third + fourth);
+    V::select(V::constant(row as f64).lt(setting.count), left * left, V::zero())
 }
 
 impl<V: Vector<Scalar = f64>> Coefficients<V> {
@@ -512,7 +489,8 @@ fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
         };
         let (mut u, mut v, mut w) = (V::zero(), V::zero(), V::zero());
         if row < length {
-            (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
+            let back = heights.back[row];
+            (u, v, w) = (heights.u[row] * back, heights.v[row] * back, heights.w[row]);
         }
         let mut terms = [weight; K];
         let (mut first, mut length) = (0, 1);
@@ -553,7 +531,8 @@ pub(super) fn plain_residuals<V: Vector<Scalar = f64>>(
 pub(crate) struct AdaptiveJet<V: Vector> {
     /// In the patch's units.
     pub surface: Surface<V>,
-    /// The root mean square of what the fit leaves of the heights, each as it counts, in the patch's units.
+    /// The root mean square of what the fit leaves of the heights, each as it counts, in the patch's units; 0 if it was not asked
+    /// for.
     pub residual: V,
     /// How many of the 15 coefficients the data decide; 0 if it was not asked for.
     pub freedom: V,
@@ -575,10 +554,12 @@ pub(crate) struct AdaptiveFit<'a> {
     pub noise: Option<&'a [f64]>,
     /// Whether the number of coefficients that the data decide is asked for.
     pub freedom: bool,
+    /// Whether what fits leave is asked for.
+    pub residual: bool,
 }
 
 impl AdaptiveFit<'_> {
-    /// What is known of a row of vertices, and one over their mean edge lengths in the patch's units. Fills in the noise.
+    /// What is known of a row of vertices, and one over their mean edge lengths in the patch's units. Fills in the variance of the noise.
     #[inline(always)]
     pub(super) fn setting<V: Vector<Scalar = f64>>(
         &self,
@@ -600,10 +581,10 @@ impl AdaptiveFit<'_> {
             noise * noise
         };
         let own_noise = squared(noise);
-        heights.noise.fill(own_noise);
+        heights.variance.fill(own_noise);
         for row in 1..=patch.len() {
             if let Some(noise) = patch.neighbour_value(row - 1) {
-                heights.noise[row] = squared(noise);
+                heights.variance[row] = squared(noise);
             }
         }
         let graded = if model.size_exponent == 0 { own * V::constant(1.0 / model.edge_length) } else { V::one() };
@@ -647,7 +628,8 @@ impl AdaptiveFit<'_> {
         let (mut worst, mut all) = (V::zero(), V::zero());
         let (mut ring_misfit, mut ring_squares) = (V::zero(), V::zero());
         for row in 0..=patch.len() {
-            let (misfit, square) = misfit(heights, &setting, &found.c, row);
+            let square = squared_residual(heights, &setting, &found.c, row);
+            let misfit = square * heights.weight[row];
             worst = misfit.max(worst);
             all = all + misfit;
             if row <= patch.len_within(1) {
@@ -661,13 +643,20 @@ impl AdaptiveFit<'_> {
         let kinked = (ring * V::constant(KINKED)).lt(ring_misfit).and((ring * V::constant(KINK)).lt(ring_squares));
         if robust {
             for _ in 0..REPETITIONS {
-                self.reweigh(heights, &setting, &found.c);
+                // The weights of a Student distribution.
+                for row in 0..heights.len() {
+                    let square = squared_residual(heights, &setting, &found.c, row);
+                    let weight = V::one() / (heights.variance[row] + square * V::constant(1.0 / HALF_WEIGHT));
+                    let there = V::constant(row as f64).lt(setting.count);
+                    heights.weight[row] = V::select(there, weight, V::zero());
+                }
                 found = solve(heights, &setting, self.freedom);
             }
             let mut off = V::zero();
             for row in 0..=patch.len() {
-                let (misfit, _) = misfit(heights, &setting, &found.c, row);
-                off = off + V::select(V::constant(HALF_WEIGHT).lt(misfit), V::one(), V::zero());
+                let square = squared_residual(heights, &setting, &found.c, row);
+                let is_off = (heights.variance[row] * V::constant(HALF_WEIGHT)).lt(square);
+                off = off + V::select(is_off, V::one(), V::zero());
             }
             let noisy = (setting.count * V::constant(NOISY_PART)).lt(off);
             if noisy.bits() != 0 {
@@ -679,9 +668,12 @@ impl AdaptiveFit<'_> {
                 }
                 let more = V::select(more.lt(V::constant(f64::MAX)).and(noisy), more, V::zero());
                 for row in 0..heights.len() {
-                    heights.noise[row] = heights.noise[row] + more;
+                    heights.variance[row] = heights.variance[row] + more;
+                    let there = V::constant(row as f64).lt(setting.count);
+                    // Lanes that are not noisy keep their weights.
+                    let weight = V::select(there, V::one() / heights.variance[row], V::zero());
+                    heights.weight[row] = V::select(noisy, weight, heights.weight[row]);
                 }
-                weigh(heights, &setting);
                 let again = solve(heights, &setting, self.freedom);
                 for term in 0..TERMS {
                     found.c[term] = V::select(noisy, again.c[term], found.c[term]);
@@ -689,12 +681,14 @@ impl AdaptiveFit<'_> {
                 }
             }
         }
-        let mut squares = V::zero();
-        let mut weights = V::zero();
-        for row in 0..=patch.len() {
-            let r = residual(heights, setting.coordinates, &found.c, row);
-            squares = squares + r * r * heights.weight[row];
-            weights = weights + heights.weight[row];
+        let (mut squares, mut weights) = (V::zero(), V::one());
+        if self.residual {
+            weights = V::zero();
+            for row in 0..=patch.len() {
+                let square = squared_residual(heights, &setting, &found.c, row);
+                squares = squares + square * heights.weight[row];
+                weights = weights + heights.weight[row];
+            }
         }
         let length = V::one() / unit;
         let c = &found.c;
@@ -709,18 +703,6 @@ impl AdaptiveFit<'_> {
             trusted: found.definite.and(inside),
             off: (typical * V::constant(OFF)).lt(worst),
             kinked,
-        }
-    }
-
-    /// Weights of a Student distribution for points that are off.
-    #[inline(always)]
-    fn reweigh<V: Vector<Scalar = f64>>(&self, heights: &mut Heights<'_, V>, setting: &Setting<V>, c: &[V; TERMS]) {
-        for row in 0..heights.len() {
-            let variance = variance(heights, setting, row);
-            let r = residual(heights, setting.coordinates, c, row);
-            let weight = V::one() / (variance + r * r * V::constant(1.0 / HALF_WEIGHT));
-            let there = V::constant(row as f64).lt(setting.count);
-            heights.weight[row] = V::select(there, weight, V::zero());
         }
     }
 }

@@ -14,21 +14,21 @@
 //! most evidence. Without enough vertices to learn from, circles are taken, since small meshes are mostly closed.
 //!
 //! Numerical notes: sums over the sample go vertex by vertex in one order, and logarithms are those of `libm`, so bits depend
-//! neither on lanes and threads nor on the system. Cost: 18 fits a sample vertex, at most seven times that.
+//! neither on lanes and threads nor on the system. Cost: about 30 fits a sample vertex.
 
 use super::adaptive_jet::{Frame, Heights, Setting, plain_residuals, prepare, scratch, solve, weigh};
 use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE, MOST_AUTOMATIC_RINGS};
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::simd::{Task, Vector, Width, as_lanes, dispatch};
+use crate::simd::{Task, Vector, Width, dispatch};
 use crate::sweep::{Counts, Patch, PatchQuantity, sweep_patches};
 use crate::topology::{Neighbourhood, Topology};
 use crate::view::{Points, zeroed};
 use glam::DVec3;
 use std::sync::{Mutex, PoisonError};
 
-/// The most vertices that are learned from; twice as many are looked at.
-const MOST_SAMPLED: usize = 512;
+/// The most vertices that are learned from; four times as many are looked at.
+const MOST_SAMPLED: usize = 256;
 
 /// With fewer than this, no choices are made.
 const FEW_SAMPLED: usize = 32;
@@ -39,8 +39,9 @@ const SAME_SIDE: f64 = 0.5;
 /// A neighbourhood of fewer points, the vertex among them, keeps the first ring whatever its normals.
 const LEAST_POINTS: usize = 6;
 
-/// Repetitions of the fixed point.
+/// Repetitions of the fixed point: from nothing, and from the sizes of other choices.
 const REPETITIONS: usize = 8;
+const FURTHER_REPETITIONS: usize = 4;
 
 /// Edges are of very different lengths if the 95 % quantile is more than this many times the 5 % quantile.
 const GRADED: f64 = 2.0;
@@ -140,7 +141,7 @@ pub(crate) fn learn(
     drop(lengths);
 
     let mut neighbourhood = Neighbourhood::new();
-    let candidates: Vec<u32> = spaced(topology.vertex_count(), 2 * MOST_SAMPLED)
+    let candidates: Vec<u32> = spaced(topology.vertex_count(), 4 * MOST_SAMPLED)
         .filter(|&vertex| known(vertex))
         .map(|vertex| vertex as u32)
         .collect();
@@ -157,7 +158,9 @@ pub(crate) fn learn(
     if samples.is_empty() {
         return Ok(AdaptiveModel { edge_length, noise: LEAST_NOISE * edge_length, ..AdaptiveModel::UNKNOWN });
     }
-    let best = choose_model(&Sampled { samples: &samples, run });
+    let mut best = None;
+    dispatch(run.level, Choose { samples: &samples, best: &mut best });
+    let Some(best) = best else { return Ok(AdaptiveModel { edge_length, ..AdaptiveModel::UNKNOWN }) };
     let Trial { noise_squared, sizes, coordinates, noise_exponent, size_exponent } = best.trial;
     let model = AdaptiveModel {
         edge_length,
@@ -313,33 +316,86 @@ struct Learned {
     evidence: [f64; 2],
 }
 
-struct Sampled<'a, 'r, 'p> {
+/// Chooses the best model for samples.
+struct Choose<'a> {
     samples: &'a [Sample],
-    run: &'r Run<'p>,
+    best: &'a mut Option<Learned>,
 }
 
-fn choose_model(sampled: &Sampled<'_, '_, '_>) -> Learned {
+impl Task for Choose<'_> {
+    #[inline(always)]
+    fn run<W: Width>(self) {
+        let blocks = self.samples.chunks(W::Double::LANES).map(Block::<W::Double>::new).collect();
+        *self.best = Some(choose_model(&Sampled::<W> { samples: self.samples, blocks }));
+    }
+}
+
+/// A row of samples, in lanes; those that have fewer points than others have zeros.
+struct Block<V> {
+    /// How many samples there are.
+    samples: usize,
+    u: Vec<V>,
+    v: Vec<V>,
+    w: Vec<V>,
+    /// The mean edge lengths of the points' vertices, and of the samples' own.
+    grades: Vec<V>,
+    own_grade: V,
+    slopes: [V; 2],
+    count: V,
+}
+
+impl<V: Vector<Scalar = f64>> Block<V> {
+    fn new(samples: &[Sample]) -> Self {
+        let load = |number: &dyn Fn(&Sample) -> f64| {
+            V::from_lanes(&std::array::from_fn(|lane| number(samples.get(lane).unwrap_or(&samples[0]))))
+        };
+        let most = samples.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
+        let rows = |column: &dyn Fn(&Sample) -> &Vec<f64>, beyond: f64| {
+            (0..most).map(|row| load(&|sample| column(sample).get(row).copied().unwrap_or(beyond))).collect()
+        };
+        Block {
+            samples: samples.len(),
+            u: rows(&|sample| &sample.u, 0.0),
+            v: rows(&|sample| &sample.v, 0.0),
+            w: rows(&|sample| &sample.w, 0.0),
+            grades: rows(&|sample| &sample.grades, 1.0),
+            own_grade: load(&|sample| sample.grades[0]),
+            slopes: [load(&|sample| sample.slopes[0]), load(&|sample| sample.slopes[1])],
+            count: load(&|sample| sample.u.len() as f64),
+        }
+    }
+}
+
+/// All samples, for vectors of a width.
+struct Sampled<'a, W: Width> {
+    samples: &'a [Sample],
+    blocks: Vec<Block<W::Double>>,
+}
+
+fn choose_model<W: Width>(sampled: &Sampled<'_, W>) -> Learned {
     let tiny = sampled.samples.len() < FEW_SAMPLED;
-    let mut best = sampled.learn(Coordinates::Circle, 0, 0, 0.5);
+    let mut best = sampled.learn(Coordinates::Circle, 0, 0, 0.5, None);
     if tiny {
         return best;
     }
-    best.take(sampled.learn(Coordinates::Height, 0, 0, 0.5), 0.0);
+    best.take(sampled.learn(Coordinates::Height, 0, 0, 0.5, Some(&best)), 0.0);
     let mut grades: Vec<f64> = sampled.samples.iter().map(|sample| sample.grades[0]).collect();
     let low = quantile(&mut grades, 0.05).unwrap_or(1.0);
     let high = quantile(&mut grades, 0.95).unwrap_or(1.0);
     if high > GRADED * low {
         for (noise_exponent, size_exponent) in [(1, 0), (2, 0), (1, 1)] {
-            best.take(sampled.learn(best.trial.coordinates, noise_exponent, size_exponent, 0.5), 0.0);
+            let coordinates = best.trial.coordinates;
+            best.take(sampled.learn(coordinates, noise_exponent, size_exponent, 0.5, Some(&best)), 0.0);
         }
         let other = match best.trial.coordinates {
             Coordinates::Height => Coordinates::Circle,
             Coordinates::Circle => Coordinates::Height,
         };
-        best.take(sampled.learn(other, best.trial.noise_exponent, best.trial.size_exponent, 0.5), 0.0);
+        let Trial { noise_exponent, size_exponent, .. } = best.trial;
+        best.take(sampled.learn(other, noise_exponent, size_exponent, 0.5, Some(&best)), 0.0);
     }
     let Trial { coordinates, noise_exponent, size_exponent, .. } = best.trial;
-    best.take(sampled.learn(coordinates, noise_exponent, size_exponent, LOUD), LOUD_MARGIN);
+    best.take(sampled.learn(coordinates, noise_exponent, size_exponent, LOUD, Some(&best)), LOUD_MARGIN);
     best
 }
 
@@ -367,17 +423,24 @@ struct Totals {
     evidence: f64,
 }
 
-impl Sampled<'_, '_, '_> {
-    /// The best numbers for these choices.
-    fn learn(&self, coordinates: Coordinates, noise_exponent: u8, size_exponent: u8, rank: f64) -> Learned {
+impl<W: Width> Sampled<'_, W> {
+    /// The best numbers for these choices, starting at those of others if there are any.
+    fn learn(
+        &self,
+        coordinates: Coordinates,
+        noise_exponent: u8,
+        size_exponent: u8,
+        rank: f64,
+        start: Option<&Learned>,
+    ) -> Learned {
         let mut trial = Trial {
             noise_squared: self.noise(noise_exponent, rank),
-            sizes: AdaptiveModel::UNKNOWN.sizes,
+            sizes: start.map_or(AdaptiveModel::UNKNOWN.sizes, |start| start.trial.sizes),
             coordinates,
             noise_exponent,
             size_exponent,
         };
-        for _ in 0..REPETITIONS {
+        for _ in 0..if start.is_some() { FURTHER_REPETITIONS } else { REPETITIONS } {
             let totals = self.totals(&trial, false);
             for degree in 2..=4 {
                 let count = ((degree + 1) * self.samples.len()) as f64;
@@ -423,87 +486,86 @@ impl Sampled<'_, '_, '_> {
 
     fn totals(&self, trial: &Trial, evidence: bool) -> Totals {
         let mut totals = Totals::default();
-        dispatch(self.run.level, Evaluate { samples: self.samples, trial, evidence, totals: &mut totals });
+        W::call(Evaluate { blocks: &self.blocks, trial, evidence, totals: &mut totals });
         totals
     }
 }
 
 /// Fits all samples with a trial's numbers.
-struct Evaluate<'a> {
-    samples: &'a [Sample],
+struct Evaluate<'a, V> {
+    blocks: &'a [Block<V>],
     trial: &'a Trial,
     evidence: bool,
     totals: &'a mut Totals,
 }
 
-impl Task for Evaluate<'_> {
+impl<V: Vector<Scalar = f64>> Task for Evaluate<'_, V> {
+    /// The width is that of the blocks.
     #[inline(always)]
     fn run<W: Width>(self) {
-        let lanes = W::Double::LANES;
-        let most = self.samples.last().map_or(0, |sample| scratch(sample.u.len()));
+        let most = self.blocks.last().map_or(0, |block| scratch(block.u.len()));
         // At most 255 points, so this is small.
-        let mut memory = vec![0.0; (most + 1) * lanes];
-        for block in self.samples.chunks(lanes) {
-            evaluate::<W::Double>(block, self.trial, self.evidence, as_lanes(&mut memory), self.totals);
+        let mut memory = vec![V::zero(); most];
+        for block in self.blocks {
+            evaluate(block, self.trial, self.evidence, &mut memory, self.totals);
         }
     }
 }
 
 #[inline(always)]
 fn evaluate<V: Vector<Scalar = f64>>(
-    block: &[Sample],
+    block: &Block<V>,
     trial: &Trial,
     evidence: bool,
     scratch: &mut [V],
     totals: &mut Totals,
 ) {
-    let load = |number: &dyn Fn(&Sample) -> f64| {
-        V::from_lanes(&std::array::from_fn(|lane| number(block.get(lane).unwrap_or(&block[0]))))
-    };
-    let most = block.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
-    let heights = &mut Heights::new(scratch, most - 1).0;
-    for row in 0..heights.u.len() {
-        let at = |column: &Vec<f64>| column.get(row).copied().unwrap_or(0.0);
-        heights.u[row] = load(&|sample| at(&sample.u));
-        heights.v[row] = load(&|sample| at(&sample.v));
-        heights.w[row] = load(&|sample| at(&sample.w));
-        let noise = |sample: &Sample| {
-            let grade = sample.grades.get(row).copied().unwrap_or(1.0);
-            let factor = [1.0, grade, grade * grade][trial.noise_exponent as usize] / sample.grades[0];
-            (trial.noise_squared * factor * factor).clamp(1e-200, 1e200)
-        };
-        heights.noise[row] = load(&noise);
+    let heights = &mut Heights::new(scratch, block.u.len() - 1).0;
+    let one = V::one();
+    for (row, variance) in heights.variance.iter_mut().enumerate() {
+        let at = |column: &[V], beyond: V| if row < column.len() { column[row] } else { beyond };
+        heights.u[row] = at(&block.u, V::zero());
+        heights.v[row] = at(&block.v, V::zero());
+        heights.w[row] = at(&block.w, V::zero());
+        let grade = at(&block.grades, one);
+        let factor = match trial.noise_exponent {
+            0 => one,
+            1 => grade,
+            _ => grade * grade,
+        } / block.own_grade;
+        *variance = bounded(V::constant(trial.noise_squared) * factor * factor);
     }
-    let grade = |sample: &Sample| if trial.size_exponent == 0 { sample.grades[0] } else { 1.0 };
-    let size_squared = |degree: usize, sample: &Sample| {
-        let size = trial.sizes[degree - 2] * powi(grade(sample), degree - 1);
-        (size * size).clamp(1e-200, 1e200)
-    };
-    let setting = Setting {
-        sizes_squared: [2, 3, 4, 5].map(|degree| load(&|sample| size_squared(degree, sample))),
-        count: load(&|sample| sample.u.len() as f64),
-        slopes: [load(&|sample| sample.slopes[0]), load(&|sample| sample.slopes[1])],
-        coordinates: trial.coordinates,
-    };
+    let grade = if trial.size_exponent == 0 { block.own_grade } else { one };
+    let mut factor = one;
+    let sizes_squared = trial.sizes.map(|size| {
+        factor = factor * grade;
+        let size = V::constant(size) * factor;
+        bounded(size * size)
+    });
+    let setting = Setting { sizes_squared, count: block.count, slopes: block.slopes, coordinates: trial.coordinates };
     weigh(heights, &setting);
     let found = solve(heights, &setting, !evidence);
     if evidence {
         let logarithms = found.log_evidence(heights, &setting);
-        for logarithm in &logarithms[..block.len()] {
+        for logarithm in &logarithms[..block.samples] {
             totals.evidence += logarithm;
         }
         return;
     }
+    let mut factor = one;
     for (index, (squares, decided)) in found.shares().into_iter().enumerate() {
-        let (squares, decided) = (squares.to_lanes(), decided.to_lanes());
-        for (lane, sample) in block.iter().enumerate() {
-            let factor = powi(grade(sample), index + 1);
-            totals.squares[index] += squares[lane] / (factor * factor);
-            totals.decided[index] += decided[lane] / (factor * factor);
+        factor = factor * grade;
+        let inverse = one / (factor * factor);
+        let (squares, decided) = ((squares * inverse).to_lanes(), (decided * inverse).to_lanes());
+        for lane in 0..block.samples {
+            totals.squares[index] += squares[lane];
+            totals.decided[index] += decided[lane];
         }
     }
 }
 
-fn powi(x: f64, power: usize) -> f64 {
-    (0..power).fold(1.0, |product, _| product * x)
+/// Kept where squares and reciprocals stay in range.
+#[inline(always)]
+fn bounded<V: Vector<Scalar = f64>>(x: V) -> V {
+    x.max(V::constant(1e-200)).min(V::constant(1e200))
 }

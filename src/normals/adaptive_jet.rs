@@ -39,6 +39,10 @@ pub(crate) trait Sink: Sync {
     fn freedom(&self) -> bool {
         false
     }
+    /// Whether [`AdaptiveJet::residual`] is asked for.
+    fn residual(&self) -> bool {
+        false
+    }
     /// Writes the lanes of a block whose bits are set and that have numbers in range, with status bits; answers with theirs.
     fn write<V: Vector<Scalar = f64>>(
         &self,
@@ -110,6 +114,7 @@ pub(crate) fn adaptive_jets<S: Sink>(
             edge_lengths: &around.edge_lengths,
             noise: (model.noise_exponent > 0).then_some(&noise),
             freedom: sink.freedom(),
+            residual: sink.residual(),
         },
         around: &around,
         creased: creased.as_mut_slice().into(),
