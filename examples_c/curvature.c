@@ -53,8 +53,10 @@ static const struct {
   int gives;
   double largest;
 } METHODS[] = {
-    {"jets (default)", UMB_CURVATURE_JET, 0, ALL, 0.03},
+    {"adaptive jets (default)", UMB_CURVATURE_ADAPTIVE_JET, 0, ALL, 0.03},
+    {"jets of degree 3", UMB_CURVATURE_JET, 0, ALL, 0.03},
     {"jets of degree 4", UMB_CURVATURE_JET, 4, ALL, 0.002},
+    {"tilted sections", UMB_CURVATURE_TILTED_SECTIONS, 0, ALL, 0.06},
     {"quadric", UMB_CURVATURE_QUADRIC, 0, ALL, 0.08},
     {"Goldfeather", UMB_CURVATURE_GOLDFEATHER, 0, ALL, 0.06},
     {"Rusinkiewicz", UMB_CURVATURE_RUSINKIEWICZ, 0, ALL, 0.045},

@@ -284,14 +284,14 @@ bool run(const std::string &name, const PolygonMesh &source) {
   auto mesh = copy<Mesh>(source);
   const Topology topology = build_topology(mesh);
 
-  // The default: osculating jets.
+  // The default: adaptive jets.
   const Property k1 = named_property(mesh, "v:k1"), k2 = named_property(mesh, "v:k2");
   const Property mean = named_property(mesh, "v:mean");
   umb_curvature_outputs outputs = UMB_CURVATURE_OUTPUTS_INIT;
   outputs.k1 = output_to(mesh, k1);
   outputs.k2 = output_to(mesh, k2);
   outputs.mean = output_to(mesh, mean);
-  umbilic_curvatures(mesh, *topology, UMB_CURVATURE_JET, outputs);
+  umbilic_curvatures(mesh, *topology, UMB_CURVATURE_ADAPTIVE_JET, outputs);
 
   const Property defect = named_property(mesh, "v:angle_defect");
   outputs = UMB_CURVATURE_OUTPUTS_INIT;

@@ -52,7 +52,7 @@ for normals, {counts[1]} for k1 and k2, those of other libraries included); erro
 as these. So 1 means as good as if one had known beforehand which fixed estimator is best. Candidates, which adapt to
 the mesh, are not among the fixed ones, nor are estimators that are given the exact normals.
 
-- **Names.** `jet D-K` is a jet of degree D over K rings, `adaptive-jet K` one over K rings. `least-squares C`, `SP`:
+- **Names.** `jet D-K` is a jet of degree D over K rings, `adaptive-jet` one over as many rings as the noise asks for (3 to 6), `adaptive-jet K` over K. `least-squares C`, `SP`:
 sections by circles and symmetric parabolas. A 1 or 2 behind a method are its rings; behind the comma stand the vertex
 normals that it is given. `N_G`, `N_T`, `N_C` are the uniform, angle and centroid weights of the paper (`N_C printed`:
 as the paper prints it), `Jin` is inverse-root-edges.

@@ -53,8 +53,8 @@ pub(super) const MOST_AUTOMATIC_RINGS: usize = 6;
 const REACH: f64 = 1.6;
 
 impl AdaptiveModel {
-    /// How many rings a fit reaches.
-    pub(crate) fn rings(&self) -> usize {
+    /// How many rings of neighbours a fit takes if it is not told: as far as they have any weight, 3 to 6.
+    pub fn rings(&self) -> usize {
         let ratio = self.noise / self.edge_length / self.sizes[3];
         let most = MOST_AUTOMATIC_RINGS;
         (LEAST_AUTOMATIC_RINGS..most).find(|&rings| ratio * REACH.powi(5) <= (rings as f64).powi(5)).unwrap_or(most)

@@ -6,7 +6,7 @@ use crate::quantity::Quantity;
 use crate::read::PolylineFile;
 use std::path::Path;
 use umbilic::{
-    CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points, PolylineOutputs,
+    AdaptiveModel, CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points, PolylineOutputs,
     PolylinePoints, Run, Section, Topology, Weight, status,
 };
 
@@ -89,6 +89,12 @@ impl VertexCurvatures {
 /// Whether a status does not say that there is no result.
 pub fn has_result(status: u8) -> bool {
     status & (status::ISOLATED | status::DEGENERATE) == 0
+}
+
+/// What adaptive jets learn of a mesh.
+pub fn model(mesh: &PolygonMesh, topology: &Topology, threads: usize) -> Result<AdaptiveModel, Error> {
+    let run = Run { threads, ..Run::default() };
+    umbilic::learn_model(topology, &Points::from(&mesh.positions), run)
 }
 
 /// The curvatures of a mesh, on so many threads (0: as many as pay).

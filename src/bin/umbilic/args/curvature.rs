@@ -6,7 +6,7 @@ use clap::Args;
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::Path;
-use umbilic::{CurvatureOptions, Error, Method, Section, VertexNormals, Weight};
+use umbilic::{AdaptiveModel, CurvatureOptions, Error, Method, Section, VertexNormals, Weight};
 
 /// How curvatures are computed. Nothing that is given goes unused: what a method does not have is refused.
 #[derive(Args)]
@@ -119,6 +119,16 @@ impl CurvatureEstimator {
 fn method() -> impl TypedValueParser<Value = Method> {
     let names = Method::ALL.map(|method| PossibleValue::new(method.name()).help(describe(method)));
     PossibleValuesParser::new(names).try_map(|name| Method::from_name(&name).ok_or("no such method"))
+}
+
+/// What adaptive jets know of a mesh, for the summary.
+pub fn model_rows(model: &AdaptiveModel, rings: usize) -> [(&'static str, String); 3] {
+    let rings = if rings == 0 { model.rings() } else { rings };
+    [
+        ("noise", format!("{:.3e}", model.noise)),
+        ("edge length", format!("{:.3e}", model.edge_length)),
+        ("reach", format!("{rings} rings")),
+    ]
 }
 
 /// Whether a method asks for no vertex normals, because it finds its own.

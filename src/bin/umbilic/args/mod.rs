@@ -3,7 +3,7 @@
 mod curvature;
 mod scale;
 
-pub use curvature::CurvatureEstimator;
+pub use curvature::{CurvatureEstimator, model_rows};
 pub use scale::ColorScale;
 
 use crate::render::{LARGEST_SIDE, UpAxis};

@@ -14,6 +14,7 @@ use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use umbilic::Method;
 
 /// Compute the curvatures of a mesh.
 ///
@@ -26,7 +27,8 @@ use std::time::Instant;
 /// as red, green and blue; k1, k2, mean, gaussian, shape_index and curvedness; the unit directions of k1 and k2 as k1_x
 /// to k2_z; and its status as the sum of: 1 boundary, 2 non-manifold, 4 faces that disagree on the orientation, 8
 /// isolated, 16 something that the input leaves undetermined was filled in, 32 no result, 64 the neighbourhood was
-/// widened. Numbers are zero where there is no result.
+/// widened, 128 a sharp vertex (with 16: on a crease). Adaptive jets print what they learned of the mesh: the noise of its positions
+/// along the normal, the typical length of an edge, and how many rings they looked at. Numbers are zero where there is no result.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
@@ -90,7 +92,7 @@ impl ValueEnum for Color {
 impl Curvature {
     /// Runs the command.
     pub fn run(&self) -> Outcome {
-        let options = self.options.options()?;
+        let mut options = self.options.options()?;
         let color = self.color()?;
         let blame = self.options.blame(&self.input);
         let start = Instant::now();
@@ -98,6 +100,12 @@ impl Curvature {
         let read = Instant::now();
         let topology = compute::topology(&mesh).map_err(&blame)?;
         let built = Instant::now();
+        let mut rows = self.options.rows();
+        if options.method == Method::AdaptiveJet {
+            let model = compute::model(&mesh, &topology, self.threads.into()).map_err(&blame)?;
+            rows.extend(args::model_rows(&model, options.rings));
+            options.model = Some(model);
+        }
         let found = compute::vertex_curvatures(&mesh, &topology, &options, self.threads.into()).map_err(&blame)?;
         let computed = Instant::now();
         let colors = color.map(|quantity| (quantity, self.scale.scale(quantity, &mesh, &found)));
@@ -110,7 +118,7 @@ impl Curvature {
         }
         let summary = Summary {
             stats: topology.stats().map_err(&blame)?,
-            options: self.options.rows(),
+            options: rows,
             adds_up: self.options.adds_up(),
             found: &found,
             colors,
