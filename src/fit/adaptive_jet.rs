@@ -5,10 +5,10 @@
 //! tangent plane. The 15 coefficients `c` of the polynomial are those of highest posterior probability:
 //!
 //! ```text
-//! Σⱼ (wⱼ − Bⱼ c)² / (σⱼ² + τ₅² ρⱼ¹⁰)  +  Σ_{d=2..4} Σᵢ c_{d,i}² / (binom(d, i) τ_d²)  →  min
+//! Σⱼ (wⱼ − Bⱼ c)² / (σⱼ² + τ₅² ρⱼ¹⁰)  +  |(p, q) − (p₀, q₀)|² / 0.2²  +  Σ_{d=2..4} Σᵢ c_{d,i}² / (binom(d, i) τ_d²)  →  min
 //! ```
 //!
-//! with lengths in units of the vertex's mean edge length, `ρ` the distance from the vertex, `σ` the noise and `τ_d` the sizes of
+//! with lengths in units of the vertex's mean edge length, `(p, q)` the slopes and `(p₀, q₀)` those of the one-ring normal, `ρ` the distance, `σ` the noise and `τ_d` the sizes of
 //! [`AdaptiveModel`]. The binomials make the prior the same in all directions of the tangent plane. What is small decides what
 //! counts: without noise only near points do (`τ₅² ρ¹⁰` is large elsewhere) and the fit is a plain jet; with much noise all
 //! points do, and the prior holds the high degrees down. At a boundary and where points are few the prior decides what they leave
@@ -45,10 +45,11 @@ const DEGREES: [usize; TERMS] = [0, 1, 1, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4];
 /// The binomial coefficients that go with them.
 const BINOMIALS: [f64; TERMS] = [1.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0, 3.0, 3.0, 1.0, 1.0, 4.0, 6.0, 4.0, 1.0];
 
-/// `1/variance` of the prior of the slopes.
-const SLOPE_PRIOR: f64 = 1e-6;
+/// `1/variance` of the slopes about those of the one-ring normal, which is hardly ever more than 20° off: nothing beside what points
+/// tell, unless these lie along a line.
+const SLOPE_PRIOR: f64 = 25.0;
 
-/// Where points are this few, with the vertex, their slopes are expected near those of the one-ring normal.
+/// Where points are this few, with the vertex, that normal is as good as they are.
 const FEW: f64 = 8.0;
 
 /// `1/variance` of the slopes there.
@@ -287,8 +288,7 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
         matrix[term][term] = matrix[term][term] + prior[term];
     }
     for axis in 0..2 {
-        let slope = V::select(few, setting.slopes[axis], V::zero());
-        right[1 + axis] = right[1 + axis] + prior[1 + axis] * slope;
+        right[1 + axis] = right[1 + axis] + prior[1 + axis] * setting.slopes[axis];
     }
     let factored = factor(&mut matrix);
     let c = factored.solve(right);
@@ -460,9 +460,8 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
             add(V::select(there, heights.weight[row], V::one()), 0.5);
             squares = squares + heights.weight[row] * heights.w[row] * heights.w[row];
         }
-        let few = setting.count.lt(V::constant(FEW + 0.5));
         let [p, q] = setting.slopes;
-        squares = squares + V::select(few, (p * p + q * q) * self.prior[1], V::zero());
+        squares = squares + (p * p + q * q) * self.prior[1];
         let rest = ((squares - self.explained) * V::constant(-0.5)).to_lanes();
         std::array::from_fn(|lane| logarithms[lane] + rest[lane])
     }

@@ -4,7 +4,7 @@
 //! neighbour within two rings left out, no face far from the normal) as many are learned from. Where there are few of these, all are.
 //!
 //! **Noise.** Plain jets of degrees 4 and 3 over two rings, and 4 over three, leave a mean square of each neighbourhood; `σ²` is
-//! the least of the three medians. A second model has the 0.8 quantile instead, for meshes of which a part is much noisier, and is
+//! half of the least of the three medians. A second model has the 0.8 quantile instead, for meshes of which a part is much noisier, and is
 //! taken only if the evidence for it is overwhelming.
 //!
 //! **Sizes.** `τ_d²` is the fixed point of MacKay 1992 ("Bayesian interpolation", eq. 4.21): the mean of the squared coefficients
@@ -38,6 +38,9 @@ const SAME_SIDE: f64 = 0.5;
 
 /// A neighbourhood of fewer points, the vertex among them, keeps the first ring whatever its normals.
 const LEAST_POINTS: usize = 6;
+
+/// What plain jets leave is their own error besides the noise: this part of its mean square is taken for noise.
+const NOISE_PART: f64 = 0.5;
 
 /// Repetitions of the fixed point: from nothing, and from the sizes of other choices.
 const REPETITIONS: usize = 8;
@@ -481,7 +484,7 @@ impl<W: Width> Sampled<'_, W> {
         if least == f64::INFINITY {
             least = 0.0;
         }
-        least.max(LEAST_NOISE * LEAST_NOISE)
+        (NOISE_PART * least).max(LEAST_NOISE * LEAST_NOISE)
     }
 
     fn totals(&self, trial: &Trial, evidence: bool) -> Totals {

@@ -6,8 +6,8 @@ use crate::quantity::Quantity;
 use crate::read::PolylineFile;
 use std::path::Path;
 use umbilic::{
-    AdaptiveModel, CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points, PolylineOutputs,
-    PolylinePoints, Run, Section, Topology, Weight, status,
+    AdaptiveModel, CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points,
+    PolylineOutputs, PolylinePoints, Run, Section, Topology, Weight, status,
 };
 
 /// The one-rings of a mesh.
