@@ -10,11 +10,11 @@ UP = numpy.array([0.0, 0.0, 1.0])
 
 
 class View:
-    """What is seen from far away in the direction `towards`, the z axis upwards."""
+    """What is seen from far away in the direction `towards`, the z axis upwards if nothing else is said."""
 
-    def __init__(self, towards):
+    def __init__(self, towards, up=UP):
         self.towards = unit(numpy.asarray(towards, float))
-        self.right = unit(numpy.cross(UP, self.towards))
+        self.right = unit(numpy.cross(up, self.towards))
         self.up = numpy.cross(self.towards, self.right)
 
     def project(self, points):

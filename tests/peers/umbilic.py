@@ -48,6 +48,19 @@ Run = struct("Run", threads=u32, simd=u32, vertices=pointer, vertex_count=size, 
 Output = struct("Output", data=pointer, stride=size, scalar=u32, reserved=u32)
 StatusOutput = struct("StatusOutput", data=pointer, stride=size)
 Error = struct("Error", struct_size=u32, status=ctypes.c_int32, element=ctypes.c_uint64, message=ctypes.c_char * 240)
+AdaptiveModel = struct(
+    "AdaptiveModel",
+    struct_size=u32,
+    coordinates=u32,
+    edge_length=double,
+    noise=double,
+    sizes=double * 4,
+    noise_exponent=u32,
+    size_exponent=u32,
+    evidence=double * 2,
+    sample=u32,
+    reserved=u32,
+)
 NormalOptions = struct("NormalOptions", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32, model=pointer)
 NormalOutputs = struct("NormalOutputs", struct_size=u32, reserved=u32, normal=Output, sum=Output, status=StatusOutput)
 CurvatureOptions = struct(
@@ -133,19 +146,28 @@ class Mesh:
     def __exit__(self, *_):
         self.close()
 
+    def model(self, positions, scalar="f64"):
+        """What adaptive jets learn of the mesh, to look at, or as the option `model` of normals and curvatures."""
+        points, keep = points_of(positions, scalar)
+        model = sized(AdaptiveModel)
+        self.compute("umb_learn_model", points, sized(NormalOptions), model)
+        del keep
+        return model
+
     def normals(self, positions, weight="conformal", scalar="f64", **options):
-        """Normals and statuses. Options: degree, rings, threads."""
+        """Normals and statuses. Options: degree, rings, model, threads."""
         points, keep = points_of(positions, scalar)
         normals, normal = output(self.vertex_count, 3, scalar)
         statuses, status = status_output(self.vertex_count)
+        model = model_of(options)
         options = sized(NormalOptions, weight=WEIGHTS[weight], run=run_of(options), **options)
         self.compute("umb_vertex_normals", points, options, sized(NormalOutputs, normal=normal, status=status))
-        del keep
+        del keep, model
         return normals.astype(float), statuses
 
     def curvatures(self, positions, method, wanted=("k1", "k2"), scalar="f64", section="symmetric-parabola", **options):
         """A dictionary of the outputs `wanted`. Options: weight, normals, radius, degree, rings, normal_degree,
-        normal_rings, threads."""
+        normal_rings, model, threads."""
         points, keep = points_of(positions, scalar)
         results, fields = {}, {}
         for name in wanted:
@@ -153,7 +175,7 @@ class Mesh:
                 results[name], fields[name] = status_output(self.vertex_count)
             else:
                 results[name], fields[name] = output(self.vertex_count, 3 if name in VECTORS else 1, scalar)
-        given = normals_of(options, scalar)
+        given = normals_of(options, scalar), model_of(options)
         options = sized(
             CurvatureOptions, method=METHODS[method], section=SECTIONS[section], run=run_of(options), **options
         )
@@ -234,6 +256,14 @@ def normals_of(options, scalar):
         return None
     options["normals"], keep = points_of(options["normals"], scalar)
     return keep
+
+
+def model_of(options):
+    """Replaces a model among options by its address; answers with the model to hold."""
+    model = options.get("model")
+    if model is not None:
+        options["model"] = ctypes.addressof(model)
+    return model
 
 
 def run_of(options):
