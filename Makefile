@@ -24,7 +24,7 @@ help:
 	@echo "make bench [BENCH=...]    every weight and method against a plain C scatter loop, CGAL and libigl"
 	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
-	@echo "make pictures             the pictures of the README"
+	@echo "make pictures             the pictures of the README; scans by umbilic, libigl and VCG: docs/scans.md"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
@@ -188,11 +188,17 @@ $(PAPER_VENV)/done: benches/paper/requirements.txt
 	$(PAPER_VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/paper/requirements.txt
 	touch $@
 
-# ---- the README's pictures ----
+# ---- pictures ----
 
-pictures: $(LIBRARY) $(MESHES)
+# Those of the README, and docs/scans.md: some two minutes.
+pictures: $(LIBRARY) $(MESHES) $(VENV)/scans
 	target/release/umbilic render $(MESHES)/elephant.off -o docs/elephant.png --color mean --size 640x560 --azimuth -10
 	target/release/umbilic render $(MESHES)/fandisk.off -o docs/fandisk.png --color k1 --size 640x560
+	$(VENV)/bin/python -B benches/scans/scans.py $(LIBRARY) $(MESHES)
+
+$(VENV)/scans: benches/scans/requirements.txt $(VENV)/done
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/scans/requirements.txt
+	touch $@
 
 header:
 	UPDATE_HEADER=1 $(CARGO) test --test header
