@@ -3,9 +3,10 @@
 //! **Sample.** Up to [`MOST_SAMPLED`] vertices, evenly spaced over the mesh, are looked at; of those away from creases (no
 //! neighbour within two rings left out, no face far from the normal) as many are learned from. Where there are few of these, all are.
 //!
-//! **Noise.** Plain jets of degrees 4 and 3 over two rings, and 4 over three, leave a mean square of each neighbourhood; `σ²` is
-//! half of the least of the three medians. A second model has the 0.8 quantile instead, for meshes of which a part is much noisier, and is
-//! taken only if the evidence for it is overwhelming.
+//! **Noise.** Plain jets of degrees 4 and 3 over two rings, and 4 over three, leave a mean square of each neighbourhood. Its lower
+//! quartile over the sample, divided by what that is for normal noise of variance 1, is where the surface is quiet: relief that a
+//! mesh is too coarse for looks like noise, but is hardly ever everywhere. `σ²` is half of the least of the three. A second model
+//! has the 0.8 quantile instead, for meshes of which a part is much noisier, and is taken only if the evidence for it is overwhelming.
 //!
 //! **Sizes.** `τ_d²` is the fixed point of MacKay 1992 ("Bayesian interpolation", eq. 4.21): the mean of the squared coefficients
 //! over as many of them as the data decide. `τ₅`, for what lies beyond, continues the series: `τ₄²/τ₃`, at most `τ₄`.
@@ -48,6 +49,9 @@ const FURTHER_REPETITIONS: usize = 4;
 
 /// Edges are of very different lengths if the 95 % quantile is more than this many times the 5 % quantile.
 const GRADED: f64 = 2.0;
+
+/// The quantile at which the noise is looked for: what is not noise but relief is hardly ever everywhere.
+const QUIET: f64 = 0.25;
 
 /// The quantile for a loud part, and by how much the logarithm of the evidence of a vertex must then be larger.
 const LOUD: f64 = 0.8;
@@ -189,6 +193,14 @@ fn spaced(count: usize, most: usize) -> impl Iterator<Item = usize> {
 fn quantile(numbers: &mut [f64], rank: f64) -> Option<f64> {
     let index = (numbers.len().checked_sub(1)? as f64 * rank) as usize;
     Some(*numbers.select_nth_unstable_by(index, f64::total_cmp).1)
+}
+
+/// What the mean of `freedom` squares of standard normal numbers is at the quantiles [`QUIET`] and [`LOUD`], by Wilson and Hilferty.
+fn typical(rank: f64, freedom: f64) -> f64 {
+    let normal = if rank == LOUD { 0.8416 } else { -0.6745 };
+    let step = 2.0 / (9.0 * freedom);
+    let root = 1.0 - step + normal * step.sqrt();
+    root * root * root
 }
 
 /// A vertex to learn from: its points in its frame, in units of its mean edge length.
@@ -377,25 +389,25 @@ struct Sampled<'a, W: Width> {
 
 fn choose_model<W: Width>(sampled: &Sampled<'_, W>) -> Learned {
     let tiny = sampled.samples.len() < FEW_SAMPLED;
-    let mut best = sampled.learn(Coordinates::Circle, 0, 0, 0.5, None);
+    let mut best = sampled.learn(Coordinates::Circle, 0, 0, QUIET, None);
     if tiny {
         return best;
     }
-    best.take(sampled.learn(Coordinates::Height, 0, 0, 0.5, Some(&best)), 0.0);
+    best.take(sampled.learn(Coordinates::Height, 0, 0, QUIET, Some(&best)), 0.0);
     let mut grades: Vec<f64> = sampled.samples.iter().map(|sample| sample.grades[0]).collect();
     let low = quantile(&mut grades, 0.05).unwrap_or(1.0);
     let high = quantile(&mut grades, 0.95).unwrap_or(1.0);
     if high > GRADED * low {
         for (noise_exponent, size_exponent) in [(1, 0), (2, 0), (1, 1)] {
             let coordinates = best.trial.coordinates;
-            best.take(sampled.learn(coordinates, noise_exponent, size_exponent, 0.5, Some(&best)), 0.0);
+            best.take(sampled.learn(coordinates, noise_exponent, size_exponent, QUIET, Some(&best)), 0.0);
         }
         let other = match best.trial.coordinates {
             Coordinates::Height => Coordinates::Circle,
             Coordinates::Circle => Coordinates::Height,
         };
         let Trial { noise_exponent, size_exponent, .. } = best.trial;
-        best.take(sampled.learn(other, noise_exponent, size_exponent, 0.5, Some(&best)), 0.0);
+        best.take(sampled.learn(other, noise_exponent, size_exponent, QUIET, Some(&best)), 0.0);
     }
     let Trial { coordinates, noise_exponent, size_exponent, .. } = best.trial;
     best.take(sampled.learn(coordinates, noise_exponent, size_exponent, LOUD, Some(&best)), LOUD_MARGIN);
@@ -465,10 +477,9 @@ impl<W: Width> Sampled<'_, W> {
     fn noise(&self, exponent: u8, rank: f64) -> f64 {
         let mut least = f64::INFINITY;
         for jet in 0..3 {
-            let mut variances: Vec<f64> = self
-                .samples
-                .iter()
-                .filter(|sample| sample.plain[jet].1 > 0.5)
+            let enough = self.samples.iter().filter(|sample| sample.plain[jet].1 > 0.5);
+            let mut freedoms: Vec<f64> = enough.clone().map(|sample| sample.plain[jet].1).collect();
+            let mut variances: Vec<f64> = enough
                 .map(|sample| {
                     let (squares, freedom) = sample.plain[jet];
                     let grade = sample.grades[0];
@@ -476,8 +487,11 @@ impl<W: Width> Sampled<'_, W> {
                     squares / freedom * factor * factor
                 })
                 .collect();
-            if variances.len() >= 8 {
-                least = quantile(&mut variances, rank).unwrap_or(least).min(least);
+            if variances.len() >= 8
+                && let (Some(variance), Some(freedom)) =
+                    (quantile(&mut variances, rank), quantile(&mut freedoms, 0.5))
+            {
+                least = least.min(variance / typical(rank, freedom));
             }
         }
         // None of them has enough points: nothing can be told from the surface.
