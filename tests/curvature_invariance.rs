@@ -299,7 +299,7 @@ fn strided_and_single_outputs_have_the_same_numbers() {
         for options in calls(1.0) {
             let expected = curvatures(&handle, &mesh.positions, &options);
             // All outputs in one record of doubles a vertex, with a gap after each; the status in the first of its bytes.
-            const RECORD: usize = 15 * 4 + 1;
+            const RECORD: usize = OUTPUTS.len() * 4 + 1;
             let mut records = vec![GUARD; RECORD * count];
             let mut outputs: umb_curvature_outputs = zeroed();
             for (place, output) in OUTPUTS.into_iter().enumerate().filter(|(_, output)| expected.has(*output)) {

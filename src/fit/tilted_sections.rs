@@ -28,7 +28,7 @@ use crate::sweep::{Ring, RingFaces};
 const K: usize = 5;
 
 /// What is added to the diagonal for `a` and `d`, per weight.
-const RIDGE: f64 = 1e-9;
+const RIDGE: f64 = 1e-6;
 
 /// And for the tilt.
 const TILT_RIDGE: f64 = 0.1;
