@@ -394,6 +394,27 @@ fn product<V: Vector>(a: &[V; ROWS], b: &[V; ROWS]) -> [V; ROWS] {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
 }
 
+/// The second derivatives of the heights, from those in the coordinates of the fit.
+///
+/// In [`Coordinates::Circle`] the degrees up to 2 are `w = g·t r + Q(t, t) ρ²` in a direction `t` of the plane, with slopes `g`: its
+/// normal curvature there is `2 Q(t, t)/√(1 + g²)`, whatever `g·t`. The shape operator that has these is that of `R Q R`, `R` being the
+/// root of the first fundamental form, exactly where all directions are alike, as on spheres, and else but for squares of the slopes.
+#[inline(always)]
+fn second_derivatives<V: Vector<Scalar = f64>>(coordinates: Coordinates, [p, q]: [V; 2], second: [V; 3]) -> [V; 3] {
+    let [uu, uv, vv] = second;
+    match coordinates {
+        Coordinates::Height => second,
+        Coordinates::Circle => {
+            // R = 1 + g gᵀ/(1 + √(1 + g²))
+            let share = V::one() / (V::one() + (V::one() + p * p + q * q).sqrt());
+            let (a, b) = ((uu * p + uv * q) * share, (uv * p + vv * q) * share);
+            let both = (a * p + b * q) * share;
+            let two = V::constant(2.0);
+            [uu + two * a * p + both * p * p, uv + a * q + b * p + both * p * q, vv + two * b * q + both * q * q]
+        }
+    }
+}
+
 /// The square of what the polynomial leaves of the height of a point; 0 in lanes that do not have it.
 #[inline(always)]
 fn squared_residual<V: Vector<Scalar = f64>>(
@@ -692,7 +713,9 @@ impl AdaptiveFit<'_> {
         let length = V::one() / unit;
         let c = &found.c;
         let two = V::constant(2.0);
-        let mut surface = Surface::of_derivatives(&axes, [c[1], c[2]], [two * c[3], c[4], two * c[5]]);
+        let (slopes, second) = ([c[1], c[2]], [two * c[3], c[4], two * c[5]]);
+        let second = second_derivatives(setting.coordinates, slopes, second);
+        let mut surface = Surface::of_derivatives(&axes, slopes, second);
         surface.shape = surface.shape.map(|x| x * unit);
         let inside = V::zero().lt(unit).and(unit.lt(V::constant(f64::MAX)));
         AdaptiveJet {
