@@ -55,6 +55,10 @@ const FEW: f64 = 8.0;
 /// `1/variance` of the slopes there.
 const FEW_SLOPE_PRIOR: f64 = 100.0;
 
+/// Where there are no more points than coefficients, what these leave open follows from the prior, which must not drown in the rounding
+/// of the points' weights: there the noise is at least this part of the size of degree 2.
+const FEW_NOISE: f64 = 1e-4;
+
 /// What is added to the diagonal of the quadric that finds the frame, relative to its mean of each degree.
 const FRAME_RIDGE: f64 = 1e-6;
 
@@ -235,6 +239,8 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
 /// Goes over to the coordinates of the setting, and sets the variances and weights of all points. To be called once.
 #[inline(always)]
 pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setting: &Setting<V>) {
+    let open = setting.count.lt(V::constant(TERMS as f64 + 0.5));
+    let least = V::select(open, setting.sizes_squared[0] * V::constant(FEW_NOISE * FEW_NOISE), V::zero());
     for row in 0..heights.len() {
         let (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
         let flat = u * u + v * v;
@@ -249,7 +255,8 @@ pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setti
             (heights.u[row], heights.v[row], heights.back[row]) = (u * forth, v * forth, back);
         }
         let fourth = squared * squared;
-        heights.variance[row] = heights.variance[row] + setting.sizes_squared[3] * (fourth * fourth * squared);
+        let noise = heights.variance[row].max(least);
+        heights.variance[row] = noise + setting.sizes_squared[3] * (fourth * fourth * squared);
         let there = V::constant(row as f64).lt(setting.count);
         heights.weight[row] = V::select(there, V::one() / heights.variance[row], V::zero());
     }
