@@ -1,14 +1,15 @@
 //! What adaptive jets ask of every one-ring: Max's normal, the mean edge length, and whether a face is far from the normal.
 //!
 //! And the normal of a vertex on a crease. Its ring is cut where neighbouring faces differ by more than 37°; each piece has
-//! the normal of its faces by Max's weights, and the vertex the mean direction of its pieces. So all vertices along an edge
+//! the normal of its faces by Max's weights (by area if all its angles are straight, which weigh nothing), and the vertex the mean
+//! direction of its pieces. So all vertices along an edge
 //! between two flat faces have the bisector, however the faces are cut up; a corner has the mean of its three.
 //!
 //! Cost: as Max's weight, and one more pass over the faces.
 
 use super::sum::{Estimator, Sum};
 use super::vertex::with_fallback;
-use super::weights::{Max, term};
+use super::weights::{Area, Max, term};
 use crate::error::Error;
 use crate::fit::Surroundings;
 use crate::parallel::Run;
@@ -230,22 +231,26 @@ fn sum_of_pieces<F: RingFaces<f64>>(ring: &Ring<'_, f64, F>) -> Vector3<f64> {
     };
     let first = (0..count).find(|&index| cut(index)).unwrap_or(0);
     let mut pieces = Vector3::zero();
-    let mut piece = Sum::<f64>::zero();
-    let mut finish = |piece: &mut Sum<f64>| {
-        let (trusted, squared) = piece.trusted();
-        if trusted {
-            pieces = pieces + piece.vector * (1.0 / squared.sqrt());
-        }
-        *piece = Sum::zero();
+    let mut piece = [Sum::<f64>::zero(); 2];
+    let mut finish = |piece: &mut [Sum<f64>; 2]| {
+        let direction = piece.iter().find_map(|sum| {
+            let (trusted, squared) = sum.trusted();
+            trusted.then(|| sum.vector * (1.0 / squared.sqrt()))
+        });
+        pieces = pieces + direction.unwrap_or(Vector3::zero());
+        *piece = [Sum::zero(); 2];
     };
     for step in 0..count {
         let index = (first + step) % count;
         if step > 0 && cut(index) {
             finish(&mut piece);
         }
-        let (vector, spread) = term::<Max, f64, F::Face>(&ring.corner(index));
-        piece.vector = piece.vector + vector;
-        piece.spread += spread;
+        let corner = ring.corner(index);
+        let terms = [term::<Max, f64, F::Face>(&corner), term::<Area, f64, F::Face>(&corner)];
+        for (sum, (vector, spread)) in piece.iter_mut().zip(terms) {
+            sum.vector = sum.vector + vector;
+            sum.spread += spread;
+        }
     }
     finish(&mut piece);
     pieces
