@@ -157,7 +157,9 @@ impl Quantity for Look<'_> {
             corners += ring.corner_count();
         }
         self.normal.write(vertex, normal);
-        self.edge_length.write(vertex, [sums.lengths / corners.max(1) as f64 / scale]);
+        // As in lanes, to the last bit.
+        let length = sums.lengths * (1.0 / corners.max(1) as f64) / scale;
+        self.edge_length.write(vertex, [length]);
         self.marks.write(vertex, mark(sums.marks(), 0));
     }
 
