@@ -13,7 +13,8 @@
 //! surface with the slopes `p, q` and the second derivatives `a, b, d` over the plane of `N` ([`Surface`]).
 //!
 //! `N` is Max's normal: then both are exact on spheres. On irregular smooth meshes the normal is of second order where a vertex has five
-//! neighbours or more. Input: any ring, of triangles or polygons; several fans are fitted together, each in units of its own mean.
+//! neighbours or more. Input: any ring, of triangles or polygons; several fans are fitted together, each edge in units of its fan's
+//! mean but for the curvatures, which all share.
 //! Reference: the sections are those of "New Computation of Normal Vector and Curvature", section 4; the tilt is this library's own.
 //! Degenerate rule: edges without length or along `N` are left out; without any edge left there is no result. Boundary: no rule
 //! needed. Cost: two square roots, two divisions and some forty products an edge; 60 products for the solve.
@@ -73,13 +74,14 @@ impl<V: Vector> TiltedSums<V> {
             let flat = u * u + v * v;
             let inverse_flat = flat.reciprocal_or_zero();
             let there = V::zero().lt(inverse_squared).and(V::zero().lt(inverse_flat));
-            // In units of l: 2/|x|² · l (u, v) is 2/|x| · |t|/|x| · (c, s).
+            // In units of l: 2/|x|² · l (u, v) is 2/|x| · |t|/|x| · (c, s). Only the curvatures are in units that all fans share.
             let twice = V::constant(2.0) * inverse_squared * unit;
             let relative = ring.squared[index];
             let weight = relative / (relative + unit * unit);
             let weight = V::select(there, weight, V::zero());
-            let both = (u * v) * inverse_flat;
-            let row = [u * u * inverse_flat, both + both, v * v * inverse_flat, twice * u, twice * v];
+            let per_flat = inverse_flat * unit;
+            let both = (u * v) * per_flat;
+            let row = [u * u * per_flat, both + both, v * v * per_flat, twice * u, twice * v];
             let curvature = twice * w;
             for i in 0..K {
                 let weighted = row[i] * weight;
@@ -89,7 +91,7 @@ impl<V: Vector> TiltedSums<V> {
                 self.right[i] = self.right[i] + weighted * curvature;
             }
             self.weight = self.weight + weight;
-            self.scale = self.scale + weight * unit;
+            self.scale = self.scale + weight * (unit * unit);
         }
     }
 
@@ -98,13 +100,13 @@ impl<V: Vector> TiltedSums<V> {
     pub fn finish(mut self, x: Vector3<V>, y: Vector3<V>, normal: Vector3<V>) -> Tilted<V> {
         // `b` stands twice in the operator, so that the ridge is the same in all directions.
         for (k, ridge) in [RIDGE, 2.0 * RIDGE, RIDGE, TILT_RIDGE, TILT_RIDGE].into_iter().enumerate() {
-            self.matrix[k][k] = self.matrix[k][k] + self.weight * V::constant(ridge);
+            let size = if k < 3 { self.scale } else { self.weight };
+            self.matrix[k][k] = self.matrix[k][k] + size * V::constant(ridge);
         }
         let factored = factor(&mut self.matrix);
         let definite = factored.definite;
         let [a, b, d, p, q] = factored.solve(self.right);
-        let unit = self.weight * self.scale.reciprocal_or_zero();
-        let surface = Surface::of_derivatives(&Axes::of(x, y, normal), [p, q], [a * unit, b * unit, d * unit]);
+        let surface = Surface::of_derivatives(&Axes::of(x, y, normal), [p, q], [a, b, d]);
         Tilted { surface, trusted: definite.and(V::zero().lt(self.weight)) }
     }
 }
