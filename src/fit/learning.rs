@@ -137,7 +137,10 @@ pub(crate) fn learn(
     around: &Surroundings,
     run: &mut Run<'_>,
 ) -> Result<AdaptiveModel, Error> {
-    let known = |vertex: usize| around.normals[vertex] != [0.0; 3] && around.edge_lengths[vertex] > 0.0;
+    let known = |vertex: usize| {
+        let length = around.edge_lengths[vertex];
+        around.normals[vertex] != [0.0; 3] && length > 0.0 && length < f64::INFINITY
+    };
     let mut lengths: Vec<f64> = zeroed(topology.vertex_count())?;
     let mut count = 0;
     for vertex in (0..topology.vertex_count()).filter(|&vertex| known(vertex)) {
@@ -146,6 +149,9 @@ pub(crate) fn learn(
     }
     let Some(edge_length) = quantile(&mut lengths[..count], 0.5) else { return Ok(AdaptiveModel::UNKNOWN) };
     drop(lengths);
+    // Above zero, however small the mesh.
+    let noise_of = |part: f64| (part * edge_length).clamp(f64::from_bits(1), f64::MAX);
+    let unknown = AdaptiveModel { edge_length, noise: noise_of(LEAST_NOISE), ..AdaptiveModel::UNKNOWN };
 
     let mut neighbourhood = Neighbourhood::new();
     let candidates: Vec<u32> = spaced(topology.vertex_count(), 4 * MOST_SAMPLED)
@@ -163,15 +169,15 @@ pub(crate) fn learn(
     // Neighbourhoods of one size share a row of lanes.
     samples.sort_unstable_by_key(|sample| (sample.u.len(), sample.vertex));
     if samples.is_empty() {
-        return Ok(AdaptiveModel { edge_length, noise: LEAST_NOISE * edge_length, ..AdaptiveModel::UNKNOWN });
+        return Ok(unknown);
     }
     let mut best = None;
     dispatch(run.level, Choose { samples: &samples, best: &mut best });
-    let Some(best) = best else { return Ok(AdaptiveModel { edge_length, ..AdaptiveModel::UNKNOWN }) };
+    let Some(best) = best else { return Ok(unknown) };
     let Trial { noise_squared, sizes, coordinates, noise_exponent, size_exponent } = best.trial;
     let model = AdaptiveModel {
         edge_length,
-        noise: noise_squared.sqrt() * edge_length,
+        noise: noise_of(noise_squared.sqrt()),
         sizes,
         noise_exponent,
         size_exponent,
@@ -180,7 +186,7 @@ pub(crate) fn learn(
         sample: samples.len() as u32,
     };
     // What came out must be what can be handed in.
-    Ok(if model.check().is_ok() { model } else { AdaptiveModel { edge_length, ..AdaptiveModel::UNKNOWN } })
+    Ok(if model.check().is_ok() { model } else { unknown })
 }
 
 /// `0..count`, or `most` evenly spaced of them.
