@@ -408,31 +408,40 @@ fn choose_model<W: Width>(sampled: &Sampled<'_, W>) -> Learned {
             let coordinates = best.trial.coordinates;
             best.take(sampled.learn(coordinates, noise_exponent, size_exponent, QUIET, Some(&best)), 0.0);
         }
-        let other = match best.trial.coordinates {
-            Coordinates::Height => Coordinates::Circle,
-            Coordinates::Circle => Coordinates::Height,
-        };
-        let Trial { noise_exponent, size_exponent, .. } = best.trial;
-        best.take(sampled.learn(other, noise_exponent, size_exponent, QUIET, Some(&best)), 0.0);
+        let Trial { coordinates, noise_exponent, size_exponent, .. } = best.trial;
+        best.take(sampled.learn(other(coordinates), noise_exponent, size_exponent, QUIET, Some(&best)), 0.0);
     }
     let Trial { coordinates, noise_exponent, size_exponent, .. } = best.trial;
-    best.take(sampled.learn(coordinates, noise_exponent, size_exponent, LOUD, Some(&best)), LOUD_MARGIN);
+    let loud = sampled.learn(coordinates, noise_exponent, size_exponent, LOUD, Some(&best));
+    if best.take(loud, LOUD_MARGIN) {
+        // What spoke for these coordinates may have been noise that the model did not know of.
+        best.take(sampled.learn(other(coordinates), noise_exponent, size_exponent, LOUD, Some(&best)), 0.0);
+    }
     best
 }
 
+fn other(coordinates: Coordinates) -> Coordinates {
+    match coordinates {
+        Coordinates::Height => Coordinates::Circle,
+        Coordinates::Circle => Coordinates::Height,
+    }
+}
+
 impl Learned {
-    /// Becomes `other` if there is more evidence for that, by more than `margin`.
-    fn take(&mut self, other: Learned, margin: f64) {
+    /// Becomes `other` if there is more evidence for that, by more than `margin`; answers whether there is.
+    fn take(&mut self, other: Learned, margin: f64) -> bool {
         let mut evidence = self.evidence;
         for (best, other) in evidence.iter_mut().zip(other.evidence) {
             if other != 0.0 && (*best == 0.0 || other > *best + margin) {
                 *best = other;
             }
         }
-        if other.own > self.own + margin {
+        let more = other.own > self.own + margin;
+        if more {
             *self = other;
         }
         self.evidence = evidence;
+        more
     }
 }
 
