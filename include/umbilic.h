@@ -504,9 +504,9 @@ typedef struct umb_normal_options {
    */
   uint32_t degree;
   /**
-   * Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands for 4 for `UMB_WEIGHT_ADAPTIVE_JET`
-   * (3 costs about half, and is as good on clean meshes), and for `UMB_WEIGHT_JET` for 1 at degree 1, 2 at degrees 2 and 3,
-   * and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
+   * Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands, for `UMB_WEIGHT_ADAPTIVE_JET`, for as
+   * many as have any weight, which is 3 on clean meshes and up to 6 on noisy ones (4 are a fair choice, 3 the cheap one); for
+   * `UMB_WEIGHT_JET`, for 1 at degree 1, 2 at degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
    * used. Other weights do not look at it.
    */
   uint32_t rings;
@@ -661,7 +661,7 @@ typedef uint32_t umb_curvature_method;
 typedef uint32_t umb_section;
 
 /**
- * Which curvatures to compute, and how. All zero: adaptive jets over four rings, at all vertices.
+ * Which curvatures to compute, and how. All zero: adaptive jets, at all vertices.
  */
 typedef struct umb_curvature_options {
   /**
@@ -1184,8 +1184,8 @@ typedef struct umb_polyline_outputs {
 #define UMB_WEIGHT_JET 10
 
 /**
- * No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
- * follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
+ * No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over three to six rings, whose weights and
+ * prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
  * library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
  * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
  * `umb_normal_options`.
@@ -1199,8 +1199,8 @@ typedef struct umb_polyline_outputs {
 #define UMB_WEIGHT_TILTED_SECTIONS 12
 
 /**
- * Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 4) rings, whose weights and prior follow from
- * the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
+ * Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 3 to 6, as many as the noise asks for), whose
+ * weights and prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
  * surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
  * Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
  * so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the

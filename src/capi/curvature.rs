@@ -30,8 +30,8 @@ use std::mem::offset_of;
 ///
 /// Every method takes triangles and polygons, and any vertex: boundary, non-manifold (all fans count together), isolated.
 pub type umb_curvature_method = u32;
-/// Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 4) rings, whose weights and prior follow from
-/// the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
+/// Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 3 to 6, as many as the noise asks for), whose
+/// weights and prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model` and `model`), with the curvatures of the fitted
 /// surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
 /// Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
 /// so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the
@@ -86,7 +86,7 @@ pub const UMB_CURVATURE_NORMAL_CYCLE: umb_curvature_method = 11;
 /// k2 and the directions come from the tensor, so k1 k2 is K only in the limit.
 pub const UMB_CURVATURE_CORRECTED_MEASURE: umb_curvature_method = 12;
 
-/// Which curvatures to compute, and how. All zero: adaptive jets over four rings, at all vertices.
+/// Which curvatures to compute, and how. All zero: adaptive jets, at all vertices.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_curvature_options {

@@ -47,8 +47,8 @@ pub const UMB_WEIGHT_ANGLE_EDGES: umb_weight = 9;
 /// `umb_normal_options`. On smooth surfaces of a higher order than any average, and twenty to forty times as expensive; on
 /// creases it rounds what the averages keep. The area-weighted normal says to which side it points.
 pub const UMB_WEIGHT_JET: umb_weight = 10;
-/// No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over four rings, whose weights and prior
-/// follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
+/// No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over three to six rings, whose weights and
+/// prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
 /// library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
 /// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
 /// `umb_normal_options`.
@@ -69,9 +69,9 @@ pub struct umb_normal_options {
     pub run: umb_run,
     /// `UMB_WEIGHT_JET` only: the degree of the polynomial, 1 to 4; 0 for 3. Other weights do not look at it.
     pub degree: u32,
-    /// Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands for 4 for `UMB_WEIGHT_ADAPTIVE_JET`
-    /// (3 costs about half, and is as good on clean meshes), and for `UMB_WEIGHT_JET` for 1 at degree 1, 2 at degrees 2 and 3,
-    /// and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
+    /// Jets only: the rings of neighbours that the polynomial is fitted to, at most 8. 0 stands, for `UMB_WEIGHT_ADAPTIVE_JET`, for as
+    /// many as have any weight, which is 3 on clean meshes and up to 6 on noisy ones (4 are a fair choice, 3 the cheap one); for
+    /// `UMB_WEIGHT_JET`, for 1 at degree 1, 2 at degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
     /// used. Other weights do not look at it.
     pub rings: u32,
     /// `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh; null to learn it from all positions. Other weights do not look at

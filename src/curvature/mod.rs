@@ -56,7 +56,7 @@ pub mod section_status {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// Adaptive jets: a polynomial height field of degree 4 over four rings, whose weights and prior follow from the noise and
+    /// Adaptive jets: a polynomial height field of degree 4 over three to six rings, whose weights and prior follow from the noise and
     /// the smoothness that the mesh itself shows (see [`AdaptiveModel`](crate::AdaptiveModel)). Its own normal is an output as
     /// well. The most accurate curvatures of this library, on clean, noisy and creased meshes alike.
     #[default]

@@ -1,15 +1,15 @@
 //! Adaptive jets: a height polynomial of degree 4 whose weights and prior follow from what the mesh itself shows of its noise
 //! and smoothness.
 //!
-//! **What.** The points of a neighbourhood (four rings by default), and the vertex itself, are heights `w(u, v)` over the
+//! **What.** The points of a neighbourhood (three to six rings by default), and the vertex itself, are heights `w(u, v)` over the
 //! tangent plane. The 15 coefficients `c` of the polynomial are those of highest posterior probability:
 //!
 //! ```text
 //! Σⱼ (wⱼ − Bⱼ c)² / (σⱼ² + τ₅² ρⱼ¹⁰)  +  |(p, q) − (p₀, q₀)|² / 0.2²  +  Σ_{d=2..4} Σᵢ c_{d,i}² / (binom(d, i) τ_d²)  →  min
 //! ```
 //!
-//! with lengths in units of the vertex's mean edge length, `(p, q)` the slopes and `(p₀, q₀)` those of the one-ring normal, `ρ` the distance, `σ` the noise and `τ_d` the sizes of
-//! [`AdaptiveModel`]. The binomials make the prior the same in all directions of the tangent plane. What is small decides what
+//! with lengths in units of the vertex's mean edge length, `(p, q)` the slopes and `(p₀, q₀)` those of the one-ring normal, `ρ` the
+//! distance, `σ` the noise and `τ_d` the sizes of [`AdaptiveModel`]. The binomials make the prior the same in all directions of the tangent plane. What is small decides what
 //! counts: without noise only near points do (`τ₅² ρ¹⁰` is large elsewhere) and the fit is a plain jet; with much noise all
 //! points do, and the prior holds the high degrees down. At a boundary and where points are few the prior decides what they leave
 //! open, so there is no special case.

@@ -5,13 +5,14 @@
 //!
 //! **Creases.** The status of a vertex with a face more than 37° from its normal says crease. If besides a smooth surface through
 //! its ring contradicts what was learned of noise and smoothness ([`AdaptiveJet::kinked`]), nothing is fitted there: its normal is the
-//! mean direction of the sides (`surroundings.rs`), curvatures are those of sections, and the status says fallback too. Everywhere else neighbours beyond a crease do not
-//! count, since their normals are more than 60° away.
+//! mean direction of the sides (`surroundings.rs`), curvatures are those of sections, and the status says fallback too. Everywhere
+//! else neighbours beyond a crease do not count, since their normals are more than 60° away.
 //!
 //! Degenerate rule: a vertex without normal has no result (status degenerate); one where the fit has no solution in range keeps
 //! Max's normal, without curvature (status fallback).
 //!
-//! Cost: about that of a jet of degree 3 over two rings for each of them, and for learning that of a few thousand vertices.
+//! Cost: three rings take about three times as long as a jet of degree 3 over two, four rings five times; learning takes as long as the
+//! fits of a few thousand vertices.
 
 use super::surroundings::{crease_normals, surroundings};
 use super::vertex::NormalOutputs;

@@ -52,7 +52,7 @@ pub enum Weight {
     /// On smooth surfaces of a higher order than any average, and twenty to forty times as expensive. The area-weighted
     /// normal says to which side it points.
     Jet(JetOptions),
-    /// No average: the normal of an adaptive jet, a polynomial height field of degree 4 over four rings, whose weights and
+    /// No average: the normal of an adaptive jet, a polynomial height field of degree 4 over three to six rings, whose weights and
     /// prior follow from the noise and the smoothness that the mesh itself shows. The most accurate normals of this library, on
     /// clean, noisy and creased meshes alike, at about the cost of [`Weight::Jet`]. On creases the mean direction of their sides.
     AdaptiveJet(AdaptiveOptions),
