@@ -1,10 +1,13 @@
 //! What the tests share: meshes, an oracle, and the C interface in a test's words.
 #![allow(dead_code)]
 
+pub mod adaptive;
 pub mod answer;
+pub mod bodies;
 pub mod capi;
 pub mod curvature;
 pub mod curvature_oracle;
+pub mod householder;
 pub mod linear;
 pub mod mesh;
 pub mod oracle;
