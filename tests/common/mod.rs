@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod adaptive;
+pub mod adaptive_oracle;
 pub mod answer;
 pub mod bodies;
 pub mod capi;
