@@ -9,6 +9,7 @@ pub mod capi;
 pub mod curvature;
 pub mod curvature_oracle;
 pub mod householder;
+pub mod learning_oracle;
 pub mod linear;
 pub mod mesh;
 pub mod oracle;
