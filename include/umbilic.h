@@ -107,7 +107,7 @@
 /**
  * A face of the vertex is more than 37 degrees from its one-ring normal: a crease, or a very coarse or noisy place. Set by adaptive
  * jets only. Where no smooth surface goes with the faces, `UMB_VERTEX_FALLBACK` is set as well: the normal is then the mean direction
- * of the sides of the crease, and curvatures are those of sections.
+ * of the sides of the crease, and curvatures are those of sections. A vertex without a fit does not carry it.
  */
 #define UMB_VERTEX_CREASE 128
 
@@ -408,7 +408,8 @@ typedef struct umb_run {
   umb_simd simd;
   /**
    * The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
-   * vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at. May
+   * vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at (but by adaptive
+   * jets without a model, which learn from all). May
    * repeat. The results are the same bits as those of a call for all vertices.
    */
   const uint32_t *vertices;
@@ -436,7 +437,7 @@ typedef uint32_t umb_coordinates;
  *
  * `umb_learn_model` fills it, and `model` of `umb_normal_options`, `umb_curvature_options` and `umb_section_options` hands it in.
  * A call without model learns its own from all positions of the mesh, with the same bits as result; given the same model, a list
- * of vertices, a part of the mesh or a later frame of it is fitted alike, and a list costs no more than its vertices.
+ * of vertices, a part of the mesh or a later frame of it is fitted alike, and a list costs little more than its vertices.
  */
 typedef struct umb_adaptive_model {
   /**
@@ -511,7 +512,7 @@ typedef struct umb_normal_options {
    */
   uint32_t rings;
   /**
-   * `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh; null to learn it from all positions. Other weights do not look at
+   * `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh, read only during the call; null to learn it from all positions. Other weights do not look at
    * it.
    */
   const struct umb_adaptive_model *model;
@@ -577,7 +578,7 @@ typedef struct umb_normal_outputs {
    * The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
    * and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
    * status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-   * stands. For jets, which sum nothing, it is the unit normal itself.
+   * stands. For jets and tilted sections, which sum nothing, it is the unit normal itself.
    */
   struct umb_output sum;
   /**
@@ -637,7 +638,7 @@ typedef struct umb_face_outputs {
  *
  * | method                       | k1 k2, shape index, curvedness | directions | H, H N | K | area | integrals | residual | condition |
  * |------------------------------|---|---|---|---|---|-------|-----------|---|
- * | ADAPTIVE_JET                 | x | x | x | x |   |       | length    | degrees of freedom |
+ * | ADAPTIVE_JET                 | x | x | x | x |   |       | length    |   |
  * | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
  * | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
  * | TILTED_SECTIONS              | x | x | x | x |   |       |           |   |
@@ -647,6 +648,8 @@ typedef struct umb_face_outputs {
  * | ANGLE_DEFECT                 |   |   |   | x | x | K     |           |   |
  * | NORMAL_CYCLE                 | x | x | x | x | x | H     |           |   |
  * | CORRECTED_MEASURE            | x | x | x | x | x | H, K  |           |   |
+ *
+ * Every method has normal and status; `degrees_of_freedom` is `ADAPTIVE_JET`'s alone.
  *
  * Every method takes triangles and polygons, and any vertex: boundary, non-manifold (all fans count together), isolated.
  */
@@ -705,7 +708,8 @@ typedef struct umb_curvature_options {
    */
   uint32_t normal_rings;
   /**
-   * What adaptive jets, as method or as weight, know of the mesh; null to learn it from all positions.
+   * What adaptive jets, as method or as weight, know of the mesh, read only during the call; null to learn it from all
+   * positions.
    */
   const struct umb_adaptive_model *model;
   /**
@@ -793,7 +797,7 @@ typedef struct umb_curvature_outputs {
    */
   struct umb_output condition;
   /**
-   * How many of the 15 coefficients of an adaptive jet the data decide, and not the prior, `#V`; 0 where nothing was fitted.
+   * `ADAPTIVE_JET` only: how many of the 15 coefficients the data decide, and not the prior, `#V`; 0 where nothing was fitted.
    */
   struct umb_output degrees_of_freedom;
   /**
@@ -1187,8 +1191,8 @@ typedef struct umb_polyline_outputs {
  * No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over three to six rings, whose weights and
  * prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
  * library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
- * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
- * `umb_normal_options`.
+ * vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. Three to five times as expensive as
+ * `UMB_WEIGHT_JET`. See `rings` and `model` of `umb_normal_options`.
  */
 #define UMB_WEIGHT_ADAPTIVE_JET 11
 
@@ -1204,7 +1208,8 @@ typedef struct umb_polyline_outputs {
  * surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
  * Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
  * so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the
- * circles along its edges best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+ * circles along its edges best, about the mean direction of its sides: large across, and small along the crease. Where a fit has no solution in range, Max's normal
+ * stays, and curvatures are 0 (`UMB_VERTEX_FALLBACK` without `UMB_VERTEX_CREASE`). `normals` and `weight` are not looked at.
  */
 #define UMB_CURVATURE_ADAPTIVE_JET 0
 
@@ -1485,7 +1490,8 @@ umb_status umb_topology_fan(const struct umb_topology *topology,
                             struct umb_error *error);
 
 /**
- * Learns what adaptive jets use of a mesh, from a sample of all its vertices.
+ * Learns what adaptive jets use of a mesh, from a sample of all its vertices: declare `umb_adaptive_model model =
+ * UMB_ADAPTIVE_MODEL_INIT`, learn, and point `options.model` at it.
  *
  * @param topology the handle
  * @param points the positions of all its vertices; read only during the call
@@ -1514,7 +1520,9 @@ umb_status umb_learn_model(const struct umb_topology *topology,
  * its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
  * `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
  *
- * Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
+ * `UMB_WEIGHT_ADAPTIVE_JET` widens nothing; where its fit has no solution in range, the vertex keeps Max's normal
+ * (`UMB_VERTEX_FALLBACK` without `UMB_VERTEX_CREASE`). `UMB_WEIGHT_TILTED_SECTIONS` does likewise. `UMB_WEIGHT_JET`: a neighbourhood with
+ * fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
  * widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
  * degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
  * degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
@@ -1522,7 +1530,7 @@ umb_status umb_learn_model(const struct umb_topology *topology,
  *
  * Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
  * the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
- * triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+ * triangles, not for jets and tilted sections, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
  * bits for any number of threads, any vectors and any choice of vertices.
  *
  * Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.

@@ -50,11 +50,12 @@ fn expected(mesh: &Mesh, oracle: &Oracle<'_>, vertex: usize) -> Option<(Vector, 
     if rows.is_empty() {
         return None;
     }
-    // `b` stands twice in the operator.
-    for (k, ridge) in [1e-6 * sizes, 2e-6 * sizes, 1e-6 * sizes, 0.1 * weights, 0.1 * weights].into_iter().enumerate()
-    {
+    // What makes curvatures differ from direction to direction, (a − d)/2 and b, and the tilt.
+    let (part, tilt) = (f64::sqrt(2e-6 * sizes), f64::sqrt(0.1 * weights));
+    rows.push(vec![part / 2.0, 0.0, -part / 2.0, 0.0, 0.0, 0.0]);
+    for (k, size) in [(1, part), (3, tilt), (4, tilt)] {
         let mut row = vec![0.0; 6];
-        row[k] = f64::sqrt(ridge);
+        row[k] = size;
         rows.push(row);
     }
     let factored = factored(&rows);
@@ -152,8 +153,8 @@ fn rings_on_spheres_have_exact_normals_and_curvatures() {
         let n = unit([random.signed(), random.signed(), random.signed()]);
         let r = 10f64.powf(6.0 * random.signed());
         let count = 4 + round % 9;
-        // The ridge of the curvatures is a part in 10⁶ of them, and magnified where few edges hardly tell them apart.
-        let tolerance = [1e-2, 2e-4, 5e-5][(count - 4).min(2)];
+        // Rounding is magnified where few edges hardly tell the curvatures apart.
+        let tolerance = if count < 5 { 1e-9 } else { 1e-11 };
         let ring = on_sphere(&mut random, n, r, count);
         let mut positions = vec![[0.0; 3]];
         positions.extend(&ring);
@@ -210,7 +211,7 @@ fn several_fans_on_one_sphere_agree() {
         let mesh = Mesh::new("fans", positions, faces);
         let found = of_method(&mesh, Method::TiltedSections);
         assert_eq!(found.status[0], status::NON_MANIFOLD);
-        check_sphere(&found, n, r, 5e-5, &format!("round {round}"));
+        check_sphere(&found, n, r, 1e-11, &format!("round {round}"));
     }
 }
 

@@ -22,7 +22,7 @@ pub const UMB_COORDINATES_CIRCLE: umb_coordinates = 1;
 ///
 /// `umb_learn_model` fills it, and `model` of `umb_normal_options`, `umb_curvature_options` and `umb_section_options` hands it in.
 /// A call without model learns its own from all positions of the mesh, with the same bits as result; given the same model, a list
-/// of vertices, a part of the mesh or a later frame of it is fitted alike, and a list costs no more than its vertices.
+/// of vertices, a part of the mesh or a later frame of it is fitted alike, and a list costs little more than its vertices.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_adaptive_model {
@@ -50,7 +50,8 @@ pub struct umb_adaptive_model {
     pub reserved: u32,
 }
 
-/// Learns what adaptive jets use of a mesh, from a sample of all its vertices.
+/// Learns what adaptive jets use of a mesh, from a sample of all its vertices: declare `umb_adaptive_model model =
+/// UMB_ADAPTIVE_MODEL_INIT`, learn, and point `options.model` at it.
 ///
 /// @param topology the handle
 /// @param points the positions of all its vertices; read only during the call

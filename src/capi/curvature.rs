@@ -17,7 +17,7 @@ use std::mem::offset_of;
 ///
 /// | method                       | k1 k2, shape index, curvedness | directions | H, H N | K | area | integrals | residual | condition |
 /// |------------------------------|---|---|---|---|---|-------|-----------|---|
-/// | ADAPTIVE_JET                 | x | x | x | x |   |       | length    | degrees of freedom |
+/// | ADAPTIVE_JET                 | x | x | x | x |   |       | length    |   |
 /// | JET, QUADRIC, GOLDFEATHER    | x | x | x | x |   |       | length    | x |
 /// | LEAST_SQUARES                | x | x | x | x |   |       | 1/length  |   |
 /// | TILTED_SECTIONS              | x | x | x | x |   |       |           |   |
@@ -28,6 +28,8 @@ use std::mem::offset_of;
 /// | NORMAL_CYCLE                 | x | x | x | x | x | H     |           |   |
 /// | CORRECTED_MEASURE            | x | x | x | x | x | H, K  |           |   |
 ///
+/// Every method has normal and status; `degrees_of_freedom` is `ADAPTIVE_JET`'s alone.
+///
 /// Every method takes triangles and polygons, and any vertex: boundary, non-manifold (all fans count together), isolated.
 pub type umb_curvature_method = u32;
 /// Adaptive jets: a polynomial height field of degree 4 over `rings` (at most 8; 0: 3 to 6, as many as the noise asks for), whose
@@ -35,7 +37,8 @@ pub type umb_curvature_method = u32;
 /// surface. The most accurate of all here on clean, noisy, open, closed and creased meshes, of triangles or polygons: the default.
 /// Its `normal` is the fitted surface's. Neighbours whose one-ring normals are more than 60 degrees from the vertex's do not count,
 /// so nothing is smeared over creases; a vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the curvatures that fit the
-/// circles along its edges best, about the mean direction of its sides: large across, and small along the crease. `normals` and `weight` are not looked at.
+/// circles along its edges best, about the mean direction of its sides: large across, and small along the crease. Where a fit has no solution in range, Max's normal
+/// stays, and curvatures are 0 (`UMB_VERTEX_FALLBACK` without `UMB_VERTEX_CREASE`). `normals` and `weight` are not looked at.
 pub const UMB_CURVATURE_ADAPTIVE_JET: umb_curvature_method = 0;
 /// Osculating jets (Cazals and Pouget 2005): a polynomial height field over several rings, over the plane of least squares of
 /// its points, with the curvatures of the fitted surface. `degree` is 2 to 4 (0: 3), `rings` at most 8 (0: 2 up to degree 3,
@@ -112,7 +115,8 @@ pub struct umb_curvature_options {
     pub normal_degree: u32,
     /// `UMB_WEIGHT_JET` and `UMB_WEIGHT_ADAPTIVE_JET` only: see `rings` of `umb_normal_options`.
     pub normal_rings: u32,
-    /// What adaptive jets, as method or as weight, know of the mesh; null to learn it from all positions.
+    /// What adaptive jets, as method or as weight, know of the mesh, read only during the call; null to learn it from all
+    /// positions.
     pub model: *const umb_adaptive_model,
     /// Vertex normals of the caller's, `#V x 3`, of any length, on the side from which the faces run counter-clockwise: those
     /// on the other change the signs of some methods and leave others without result. A vertex whose normal is zero has no
@@ -162,7 +166,7 @@ pub struct umb_curvature_outputs {
     pub residual: umb_output,
     /// The condition number of a fit (Frobenius norm, columns of length 1, so not CGAL's), `#V`.
     pub condition: umb_output,
-    /// How many of the 15 coefficients of an adaptive jet the data decide, and not the prior, `#V`; 0 where nothing was fitted.
+    /// `ADAPTIVE_JET` only: how many of the 15 coefficients the data decide, and not the prior, `#V`; 0 where nothing was fitted.
     pub degrees_of_freedom: umb_output,
     /// The unit normals that all this belongs to, `#V x 3`.
     pub normal: umb_output,

@@ -50,8 +50,8 @@ pub const UMB_WEIGHT_JET: umb_weight = 10;
 /// No average, but the normal of an adaptive jet: a polynomial height field of degree 4 over three to six rings, whose weights and
 /// prior follow from the noise and the smoothness that the mesh itself shows (see `umb_adaptive_model`). The most accurate normals of this
 /// library on smooth surfaces, clean or noisy, of triangles or polygons; where a neighbourhood crosses a crease, only what is on the
-/// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. See `rings` and `model` of
-/// `umb_normal_options`.
+/// vertex's side counts. A vertex on a crease (`UMB_VERTEX_CREASE` and `UMB_VERTEX_FALLBACK`) has the mean direction of its sides. Three to five times as expensive as
+/// `UMB_WEIGHT_JET`. See `rings` and `model` of `umb_normal_options`.
 pub const UMB_WEIGHT_ADAPTIVE_JET: umb_weight = 11;
 /// Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator (one 5 x 5 solve). Exact
 /// where the vertex and its neighbours lie on a sphere; the most accurate normal of one ring on smooth surfaces with little noise.
@@ -74,7 +74,7 @@ pub struct umb_normal_options {
     /// `UMB_WEIGHT_JET`, for 1 at degree 1, 2 at degrees 2 and 3, and 3 at degree 4. The first ring of a vertex is all vertices that share a face with it. No more than 255 vertices are
     /// used. Other weights do not look at it.
     pub rings: u32,
-    /// `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh; null to learn it from all positions. Other weights do not look at
+    /// `UMB_WEIGHT_ADAPTIVE_JET` only: what is known of the mesh, read only during the call; null to learn it from all positions. Other weights do not look at
     /// it.
     pub model: *const umb_adaptive_model,
 }
@@ -92,7 +92,7 @@ pub struct umb_normal_outputs {
     /// The weighted sums before normalisation, `#V x 3`, in the weight's unit: length^2 for areas, 1/length^2 for Max,
     /// and so on. For N_CM each fan's weights are divided by their total, so a fan's sum is at most 1 long. Where the
     /// status says fallback, it is the sum of that other weight, in its unit. Beyond the scalar's range its largest value
-    /// stands. For jets, which sum nothing, it is the unit normal itself.
+    /// stands. For jets and tilted sections, which sum nothing, it is the unit normal itself.
     pub sum: umb_output,
     /// `UMB_VERTEX_` bits, `#V`.
     pub status: umb_status_output,
@@ -135,7 +135,9 @@ pub struct umb_face_outputs {
 /// its ring does not); if nothing is left, the vertex takes the normal by Max's weight, else by area, else of any face (status
 /// `UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). Nothing is ever NaN or infinite.
 ///
-/// Jets: a neighbourhood with fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
+/// `UMB_WEIGHT_ADAPTIVE_JET` widens nothing; where its fit has no solution in range, the vertex keeps Max's normal
+/// (`UMB_VERTEX_FALLBACK` without `UMB_VERTEX_CREASE`). `UMB_WEIGHT_TILTED_SECTIONS` does likewise. `UMB_WEIGHT_JET`: a neighbourhood with
+/// fewer vertices than the polynomial has coefficients, or whose vertices do not determine it, is
 /// widened by up to four rings (`UMB_VERTEX_WIDENED`). Where that does not help, the vertex takes a polynomial of lower
 /// degree, else the area-weighted normal (`UMB_VERTEX_FALLBACK`), else (0, 0, 0) (`UMB_VERTEX_DEGENERATE`). A jet more than 75
 /// degrees from the area-weighted normal is not believed: heights are then taken along that normal instead
@@ -143,7 +145,7 @@ pub struct umb_face_outputs {
 ///
 /// Positions are taken relative to each vertex and scaled by powers of two, so neither the distance from the origin nor
 /// the size of the mesh costs accuracy. Single precision is used if positions and outputs all are `f32` and faces are
-/// triangles, not for jets, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
+/// triangles, not for jets and tilted sections, and then only where its error stays below about 1e-6; all else is double precision. The results are the same
 /// bits for any number of threads, any vectors and any choice of vertices.
 ///
 /// Threads: any number of calls may use one topology at once. Cost: linear in the number of corners.

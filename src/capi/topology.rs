@@ -25,7 +25,7 @@ pub const UMB_VERTEX_DEGENERATE: u8 = 32;
 pub const UMB_VERTEX_WIDENED: u8 = 64;
 /// A face of the vertex is more than 37 degrees from its one-ring normal: a crease, or a very coarse or noisy place. Set by adaptive
 /// jets only. Where no smooth surface goes with the faces, `UMB_VERTEX_FALLBACK` is set as well: the normal is then the mean direction
-/// of the sides of the crease, and curvatures are those of sections.
+/// of the sides of the crease, and curvatures are those of sections. A vertex without a fit does not carry it.
 pub const UMB_VERTEX_CREASE: u8 = 128;
 
 const _: () = {

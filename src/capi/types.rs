@@ -120,7 +120,8 @@ pub struct umb_run {
     /// The widest vectors to use.
     pub simd: umb_simd,
     /// The vertices to compute; null for all, so an empty list needs a pointer that is not null. Outputs stay indexed by
-    /// vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at. May
+    /// vertex; those of other vertices are left alone, and positions that no listed vertex needs are not looked at (but by adaptive
+    /// jets without a model, which learn from all). May
     /// repeat. The results are the same bits as those of a call for all vertices.
     pub vertices: *const u32,
     /// The number of `vertices`.

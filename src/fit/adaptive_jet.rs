@@ -68,6 +68,12 @@ const MOST_TURN: f64 = 0.8;
 /// Below this squared length, in edge lengths, the projection of a point has no direction.
 const NO_DIRECTION: f64 = 1e-20;
 
+/// The square of the distance, in edge lengths, beyond which points do not count.
+const FARTHEST: f64 = 1e20;
+
+/// A neighbourhood may extend so many mean edge lengths of its vertex.
+const LARGEST_UNIT: f64 = 1e60;
+
 /// The square of how many standard deviations a point may be off before the fit is repeated.
 const OFF: f64 = 20.0;
 
@@ -243,6 +249,10 @@ pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setti
     let least = V::select(open, setting.sizes_squared[0] * V::constant(FEW_NOISE * FEW_NOISE), V::zero());
     for row in 0..heights.len() {
         let (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
+        // A point so far away that its powers would leave the range counts for nothing anyway.
+        let near = (u * u + v * v + w * w).lt(V::constant(FARTHEST));
+        let [u, v, w] = [u, v, w].map(|x| V::select(near, x, V::zero()));
+        (heights.u[row], heights.v[row], heights.w[row]) = (u, v, w);
         let flat = u * u + v * v;
         let mut squared = flat;
         if setting.coordinates == Coordinates::Circle {
@@ -256,8 +266,9 @@ pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setti
         }
         let fourth = squared * squared;
         let noise = heights.variance[row].max(least);
-        heights.variance[row] = noise + setting.sizes_squared[3] * (fourth * fourth * squared);
-        let there = V::constant(row as f64).lt(setting.count);
+        let variance = noise + setting.sizes_squared[3] * (fourth * fourth * squared);
+        heights.variance[row] = variance.min(V::constant(1e200));
+        let there = V::constant(row as f64).lt(setting.count).and(near);
         heights.weight[row] = V::select(there, V::one() / heights.variance[row], V::zero());
     }
 }
@@ -484,8 +495,8 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
         }
         let mut squares = V::zero();
         for row in 0..heights.len() {
-            let there = V::constant(row as f64).lt(setting.count);
-            add(V::select(there, heights.weight[row], V::one()), 0.5);
+            let counts = V::zero().lt(heights.weight[row]);
+            add(V::select(counts, heights.weight[row], V::one()), 0.5);
             squares = squares + heights.weight[row] * heights.w[row] * heights.w[row];
         }
         let [p, q] = setting.slopes;
@@ -724,7 +735,8 @@ impl AdaptiveFit<'_> {
         let second = second_derivatives(setting.coordinates, slopes, second);
         let mut surface = Surface::of_derivatives(&axes, slopes, second);
         surface.shape = surface.shape.map(|x| x * unit);
-        let inside = V::zero().lt(unit).and(unit.lt(V::constant(f64::MAX)));
+        // Edges of no size beside that of the neighbourhood leave numbers that no unit could bring back into range.
+        let inside = V::constant(1.0 / LARGEST_UNIT).lt(unit).and(unit.lt(V::constant(LARGEST_UNIT)));
         AdaptiveJet {
             surface,
             residual: (squares / weights).sqrt() * length,

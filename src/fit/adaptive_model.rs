@@ -16,8 +16,8 @@ pub enum Coordinates {
 /// The numbers that [`learn_model`](crate::learn_model) learns from a mesh, and with which adaptive jets are then fitted.
 ///
 /// Each call learns its own if it is given none, which takes all positions of the mesh. Given the same model, a list of vertices,
-/// a part of a mesh that is cut up, or a later frame of one that moves is fitted alike, and a list of vertices costs no more than
-/// they do.
+/// a part of a mesh that is cut up, or a later frame of one that moves is fitted alike, and a list of vertices costs little more
+/// than they do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AdaptiveModel {
     /// The median over the vertices of the mean length of a vertex's edges; the unit of what follows.

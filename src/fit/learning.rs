@@ -21,7 +21,7 @@ use super::adaptive_jet::{Frame, Heights, Setting, plain_residuals, prepare, scr
 use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE, MOST_AUTOMATIC_RINGS};
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::simd::{Task, Vector, Width, dispatch};
+use crate::simd::{MAX_LANES, Mask, Task, Vector, Width, dispatch};
 use crate::sweep::{Counts, Patch, PatchQuantity, sweep_patches};
 use crate::topology::{Neighbourhood, Topology};
 use crate::view::{Points, zeroed};
@@ -233,7 +233,7 @@ impl Collector<'_> {
     #[inline(always)]
     fn collect<V: Vector<Scalar = f64>>(&self, vertices: &[u32], patch: &Patch<'_, V>, scale: V, scratch: &mut [V]) {
         let own = vertices.iter().map(|&vertex| self.around.edge_lengths[vertex as usize]);
-        let mut lanes = [1.0; crate::simd::MAX_LANES];
+        let mut lanes = [1.0; MAX_LANES];
         lanes.iter_mut().zip(own).for_each(|(lane, own)| *lane = own);
         let unit = V::one() / (V::from_lanes(&lanes) * scale);
         let (mut heights, scratch) = Heights::new(scratch, patch.len());
@@ -451,6 +451,8 @@ struct Totals {
     squares: [f64; 3],
     decided: [f64; 3],
     evidence: f64,
+    /// How many samples these are.
+    used: usize,
 }
 
 impl<W: Width> Sampled<'_, W> {
@@ -473,16 +475,17 @@ impl<W: Width> Sampled<'_, W> {
         for _ in 0..if start.is_some() { FURTHER_REPETITIONS } else { REPETITIONS } {
             let totals = self.totals(&trial, false);
             for degree in 2..=4 {
-                let count = ((degree + 1) * self.samples.len()) as f64;
+                let count = ((degree + 1) * totals.used) as f64;
                 let (squares, decided) = (totals.squares[degree - 2], totals.decided[degree - 2]);
                 let size = &mut trial.sizes[degree - 2];
-                let free = (count - decided / (*size * *size)).max(1e-3 * count);
+                let free = (count - decided / (*size * *size)).max(1e-3 * count).max(1e-3);
                 *size = (squares / free).max(LEAST_NOISE * LEAST_NOISE).sqrt();
             }
             let [_, third, fourth, beyond] = &mut trial.sizes;
             *beyond = (*fourth * *fourth / third.max(1e-9)).clamp(0.02 * *fourth, *fourth);
         }
-        let own = self.totals(&trial, true).evidence / self.samples.len() as f64;
+        let totals = self.totals(&trial, true);
+        let own = totals.evidence / totals.used.max(1) as f64;
         let mut evidence = [0.0; 2];
         evidence[(coordinates == Coordinates::Circle) as usize] = own;
         Learned { trial, own, evidence }
@@ -579,20 +582,31 @@ fn evaluate<V: Vector<Scalar = f64>>(
     let found = solve(heights, &setting, !evidence);
     if evidence {
         let logarithms = found.log_evidence(heights, &setting);
-        for logarithm in &logarithms[..block.samples] {
+        for logarithm in logarithms[..block.samples].iter().filter(|logarithm| logarithm.is_finite()) {
             totals.evidence += logarithm;
+            totals.used += 1;
         }
         return;
     }
+    let definite = found.definite.bits();
     let mut factor = one;
-    for (index, (squares, decided)) in found.shares().into_iter().enumerate() {
+    let shares = found.shares().map(|(squares, decided)| {
         factor = factor * grade;
         let inverse = one / (factor * factor);
-        let (squares, decided) = ((squares * inverse).to_lanes(), (decided * inverse).to_lanes());
-        for lane in 0..block.samples {
+        ((squares * inverse).to_lanes(), (decided * inverse).to_lanes())
+    });
+    // A sample out of all range teaches nothing, and must not spoil what the others do.
+    let usable = |lane: &usize| {
+        let finite =
+            |(squares, decided): &([f64; MAX_LANES], [f64; MAX_LANES])| (squares[*lane] + decided[*lane]).is_finite();
+        definite & 1 << lane != 0 && shares.iter().all(finite)
+    };
+    for lane in (0..block.samples).filter(usable) {
+        for (index, (squares, decided)) in shares.iter().enumerate() {
             totals.squares[index] += squares[lane];
             totals.decided[index] += decided[lane];
         }
+        totals.used += 1;
     }
 }
 

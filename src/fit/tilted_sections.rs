@@ -9,7 +9,8 @@
 //!
 //! for every edge `x`, in the sense of least squares. Lengths are in units of the harmonic mean `l` of the edges; an edge weighs
 //! `(|x|/l)² / (1 + (|x|/l)²)`, so that very short ones, which magnify what `N` is off, count less; and a ridge of 0.1 holds the tilt
-//! back, so that rings of three and four edges, which do not determine it, keep `N`. Normal and shape operator are those of the
+//! back, so that rings of three and four edges, which do not determine it, keep `N`; a tiny one makes points as round as the edges
+//! allow where these leave that open. Normal and shape operator are those of the
 //! surface with the slopes `p, q` and the second derivatives `a, b, d` over the plane of `N` ([`Surface`]).
 //!
 //! `N` is Max's normal: then both are exact on spheres. On irregular smooth meshes the normal is of second order where a vertex has five
@@ -25,11 +26,11 @@ use super::surface::Surface;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces};
 
-/// The unknowns `a, b, d, p, q`.
+/// The unknowns `(a + d)/2, (a − d)/2, b, p, q`.
 const K: usize = 5;
 
-/// What is added to the diagonal for `a` and `d`, per weight.
-const RIDGE: f64 = 1e-6;
+/// What is added to the diagonal for what differs from direction to direction, per weight; the mean needs nothing, so spheres are exact.
+const RIDGE: f64 = 2e-6;
 
 /// And for the tilt.
 const TILT_RIDGE: f64 = 0.1;
@@ -81,7 +82,7 @@ impl<V: Vector> TiltedSums<V> {
             let weight = V::select(there, weight, V::zero());
             let per_flat = inverse_flat * unit;
             let both = (u * v) * per_flat;
-            let row = [u * u * per_flat, both + both, v * v * per_flat, twice * u, twice * v];
+            let row = [unit, (u * u - v * v) * per_flat, both + both, twice * u, twice * v];
             let curvature = twice * w;
             for i in 0..K {
                 let weighted = row[i] * weight;
@@ -98,15 +99,16 @@ impl<V: Vector> TiltedSums<V> {
     /// Solves.
     #[inline(always)]
     pub fn finish(mut self, x: Vector3<V>, y: Vector3<V>, normal: Vector3<V>) -> Tilted<V> {
-        // `b` stands twice in the operator, so that the ridge is the same in all directions.
-        for (k, ridge) in [RIDGE, 2.0 * RIDGE, RIDGE, TILT_RIDGE, TILT_RIDGE].into_iter().enumerate() {
-            let size = if k < 3 { self.scale } else { self.weight };
-            self.matrix[k][k] = self.matrix[k][k] + size * V::constant(ridge);
+        for k in [1, 2] {
+            self.matrix[k][k] = self.matrix[k][k] + self.scale * V::constant(RIDGE);
+        }
+        for k in [3, 4] {
+            self.matrix[k][k] = self.matrix[k][k] + self.weight * V::constant(TILT_RIDGE);
         }
         let factored = factor(&mut self.matrix);
         let definite = factored.definite;
-        let [a, b, d, p, q] = factored.solve(self.right);
-        let surface = Surface::of_derivatives(&Axes::of(x, y, normal), [p, q], [a, b, d]);
+        let [mean, half, mixed, p, q] = factored.solve(self.right);
+        let surface = Surface::of_derivatives(&Axes::of(x, y, normal), [p, q], [mean + half, mixed, mean - half]);
         Tilted { surface, trusted: definite.and(V::zero().lt(self.weight)) }
     }
 }

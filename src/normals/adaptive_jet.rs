@@ -16,11 +16,11 @@
 
 use super::surroundings::{crease_normals, surroundings};
 use super::vertex::NormalOutputs;
-use crate::error::Error;
+use crate::error::{Error, reserved};
 use crate::fit::{AdaptiveFit, AdaptiveJet, AdaptiveModel, Surroundings, learn};
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector};
-use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
+use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, check_counts, sweep_patches};
 use crate::topology::{Neighbourhood, Topology, closure, status};
 use crate::view::{Points, StatusOutput, zeroed};
 
@@ -85,6 +85,7 @@ pub(crate) fn adaptive_jets<S: Sink>(
     mut run: Run<'_>,
     sink: &S,
 ) -> Result<(), Error> {
+    check_counts(topology, points, run.vertices)?;
     if options.rings as usize > MOST_RINGS {
         return Err(Error::OptionOutOfRange { what: "options.rings" });
     }
@@ -108,6 +109,8 @@ pub(crate) fn adaptive_jets<S: Sink>(
         crate::parallel::fill(run.threads, &mut noise, |vertex| model.noise_at(around.edge_lengths[vertex]));
     }
     let mut creased: Vec<u8> = zeroed(topology.vertex_count())?;
+    // There before the first result is written.
+    let mut creases: Vec<u32> = reserved(run.vertices.map_or(topology.vertex_count(), <[u32]>::len))?;
     let quantity = Jets {
         fit: AdaptiveFit {
             model,
@@ -123,10 +126,10 @@ pub(crate) fn adaptive_jets<S: Sink>(
     };
     run.part(0.1, 0.95, |mut run| sweep_patches(topology, points, &mut run, &quantity))?;
     let is_creased = |vertex: &u32| creased[*vertex as usize] != 0;
-    let creases: Vec<u32> = match run.vertices {
-        Some(vertices) => vertices.iter().copied().filter(is_creased).collect(),
-        None => (0..topology.vertex_count() as u32).filter(is_creased).collect(),
-    };
+    match run.vertices {
+        Some(vertices) => creases.extend(vertices.iter().copied().filter(is_creased)),
+        None => creases.extend((0..topology.vertex_count() as u32).filter(is_creased)),
+    }
     run.part_for(Some(&creases), 0.95, 0.97, |mut run| {
         crease_normals(topology, points, &mut run, &mut around.normals)
     })?;

@@ -54,7 +54,7 @@ pub enum Weight {
     Jet(JetOptions),
     /// No average: the normal of an adaptive jet, a polynomial height field of degree 4 over three to six rings, whose weights and
     /// prior follow from the noise and the smoothness that the mesh itself shows. The most accurate normals of this library, on
-    /// clean, noisy and creased meshes alike, at about the cost of [`Weight::Jet`]. On creases the mean direction of their sides.
+    /// clean, noisy and creased meshes alike, at three to five times the cost of the default [`Weight::Jet`]. On creases the mean direction of their sides.
     AdaptiveJet(AdaptiveOptions),
     /// Max's normal, tilted so that the sections along the edges of the ring agree best with one shape operator. Exact where the
     /// vertex and its neighbours lie on a sphere; the most accurate normal of one ring on smooth surfaces with little noise.

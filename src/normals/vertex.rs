@@ -27,7 +27,7 @@ pub struct NormalOutputs<'a> {
     /// The weighted sums before normalisation, `#V × 3`, in the weight's unit: length² for areas, 1/length² for Max
     /// and so on. For [`Weight::Conformal`] the weights of each fan are divided by their total, so the length of a
     /// fan's sum is at most 1. Beyond the scalar's range its largest value stands. Where the status says fallback, it
-    /// is the sum of the fallback. For [`Weight::Jet`], which sums nothing, it is the unit normal itself.
+    /// is the sum of the fallback. For jets and tilted sections, which sum nothing, it is the unit normal itself.
     pub sum: Option<Output<'a>>,
     /// [`status`] bits, `#V`.
     pub status: Option<StatusOutput<'a>>,

@@ -93,7 +93,7 @@ pub(crate) fn sweep<Q: Quantity>(
 }
 
 /// Refuses positions that are too few or too many, and vertices that are none.
-fn check_counts(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
+pub(crate) fn check_counts(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
     let expected = topology.vertex_count() as u64;
     if points.len() as u64 != expected {
         return Err(Error::Size { what: "points.count", found: points.len() as u64, expected });
