@@ -17,15 +17,17 @@
 //! Numerical notes: sums over the sample go vertex by vertex in one order, and logarithms are those of `libm`, so bits depend
 //! neither on lanes and threads nor on the system. Cost: about 30 fits a sample vertex.
 
-use super::adaptive_jet::{Frame, Heights, Setting, plain_residuals, prepare, scratch, solve, weigh};
-use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE, MOST_AUTOMATIC_RINGS};
+use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE};
+use super::heights::{Heights, scratch, weigh};
+use super::ridge::{Setting, solve};
+use super::sample::{Collector, Sample};
+use super::surroundings::Surroundings;
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{MAX_LANES, Mask, Task, Vector, Width, dispatch};
-use crate::sweep::{Counts, Patch, PatchQuantity, sweep_patches};
+use crate::sweep::sweep_patches;
 use crate::topology::{Neighbourhood, Topology};
 use crate::view::{Points, zeroed};
-use glam::DVec3;
 use std::sync::{Mutex, PoisonError};
 
 /// The most vertices that are learned from; four times as many are looked at.
@@ -34,17 +36,12 @@ const MOST_SAMPLED: usize = 256;
 /// With fewer than this, no choices are made.
 const FEW_SAMPLED: usize = 32;
 
-/// The cosine of the largest angle between the one-ring normals of a vertex and of a neighbour that counts.
-const SAME_SIDE: f64 = 0.5;
-
-/// A neighbourhood of fewer points, the vertex among them, keeps the first ring whatever its normals.
-const LEAST_POINTS: usize = 6;
-
 /// What plain jets leave is their own error besides the noise: this part of its mean square is taken for noise.
 const NOISE_PART: f64 = 0.5;
 
 /// Repetitions of the fixed point: from nothing, and from the sizes of other choices.
 const REPETITIONS: usize = 8;
+
 const FURTHER_REPETITIONS: usize = 4;
 
 /// Edges are of very different lengths if the 95 % quantile is more than this many times the 5 % quantile.
@@ -55,77 +52,8 @@ const QUIET: f64 = 0.25;
 
 /// The quantile for a loud part, and by how much the logarithm of the evidence of a vertex must then be larger.
 const LOUD: f64 = 0.8;
+
 const LOUD_MARGIN: f64 = 20.0;
-
-/// One-rings, as far as adaptive jets ask.
-#[derive(Debug, Default)]
-pub(crate) struct Surroundings {
-    /// Unit one-ring normals, zero where there is none.
-    pub normals: Vec<[f64; 3]>,
-    /// The mean length of each vertex's edges, those of its faces at the vertex.
-    pub edge_lengths: Vec<f64>,
-    /// [`Surroundings::SHARP`], [`Surroundings::SPIKE`] and [`Surroundings::BESIDE_SPIKE`].
-    pub marks: Vec<u8>,
-}
-
-impl Surroundings {
-    /// A face of the vertex is more than 37° from its normal.
-    pub const SHARP: u8 = 1;
-    /// The vertex stands out of its neighbours: it is no use to fits around others.
-    pub const SPIKE: u8 = 2;
-    /// A neighbour is a spike: what is sharp is so because of that.
-    pub const BESIDE_SPIKE: u8 = 4;
-
-    /// Whether a vertex may be on a crease.
-    #[inline(always)]
-    pub fn may_be_creased(&self, vertex: usize) -> bool {
-        self.marks[vertex] == Self::SHARP
-    }
-
-    /// Fills `chosen` with the neighbours on the same side of any crease.
-    #[inline(always)]
-    pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        let own = DVec3::from(self.normals[vertex as usize]);
-        let rings = self.may_be_creased(vertex as usize) as usize;
-        let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
-        if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
-    }
-
-    /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1, but for vertices with one of the `unwanted`
-    /// marks.
-    #[inline(always)]
-    fn choose_beyond(
-        &self,
-        own: DVec3,
-        found: &Neighbourhood,
-        rings: usize,
-        unwanted: u8,
-        chosen: &mut [u32],
-    ) -> Counts {
-        let mut counts = found.counts_within();
-        let mut count = 0;
-        let mut first = 0;
-        for (ring, ring_count) in counts.iter_mut().enumerate() {
-            let last = *ring_count as usize;
-            for &neighbour in &found.vertices()[first..last] {
-                chosen[count] = neighbour;
-                let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
-                let wanted = self.marks[neighbour as usize] & unwanted == 0;
-                count += ((near || ring < rings) && wanted) as usize;
-            }
-            *ring_count = count as u32;
-            first = last;
-        }
-        counts
-    }
-
-    /// Whether a vertex is away from creases.
-    fn is_clean(&self, vertex: u32, topology: &Topology, neighbourhood: &mut Neighbourhood) -> bool {
-        let own = DVec3::from(self.normals[vertex as usize]);
-        let near = |&neighbour: &u32| own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
-        self.marks[vertex as usize] == 0 && neighbourhood.gather(topology, vertex, 2).iter().all(near)
-    }
-}
 
 /// Learns from all vertices, whatever `run` is to compute.
 ///
@@ -207,114 +135,6 @@ fn typical(rank: f64, freedom: f64) -> f64 {
     let step = 2.0 / (9.0 * freedom);
     let root = 1.0 - step + normal * step.sqrt();
     root * root * root
-}
-
-/// A vertex to learn from: its points in its frame, in units of its mean edge length.
-struct Sample {
-    vertex: u32,
-    u: Vec<f64>,
-    v: Vec<f64>,
-    w: Vec<f64>,
-    /// The mean edge lengths of the points' vertices.
-    grades: Vec<f64>,
-    slopes: [f64; 2],
-    /// What plain jets leave, and how many more points than coefficients they had.
-    plain: [(f64, f64); 3],
-}
-
-/// Puts samples into their frames.
-struct Collector<'a> {
-    around: &'a Surroundings,
-    edge_length: f64,
-    samples: Mutex<Vec<Sample>>,
-}
-
-impl Collector<'_> {
-    #[inline(always)]
-    fn collect<V: Vector<Scalar = f64>>(&self, vertices: &[u32], patch: &Patch<'_, V>, scale: V, scratch: &mut [V]) {
-        let own = vertices.iter().map(|&vertex| self.around.edge_lengths[vertex as usize]);
-        let mut lanes = [1.0; MAX_LANES];
-        lanes.iter_mut().zip(own).for_each(|(lane, own)| *lane = own);
-        let unit = V::one() / (V::from_lanes(&lanes) * scale);
-        let (mut heights, scratch) = Heights::new(scratch, patch.len());
-        let heights = &mut heights;
-        let Frame { slopes, .. } = prepare(patch, unit, heights);
-        let plain = plain_residuals(patch, heights, scratch)
-            .map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
-        let (counts, slopes) = (patch.count.to_lanes(), slopes.map(V::to_lanes));
-        for (lane, &vertex) in vertices.iter().enumerate() {
-            let rows = 0..counts[lane] as usize + 1;
-            let column = |numbers: &[V]| rows.clone().map(|row| numbers[row].to_lanes()[lane]).collect();
-            let grade = |row: usize| match row {
-                0 => self.around.edge_lengths[vertex as usize],
-                _ => patch.neighbour_value(row - 1).map_or(1.0, |value| value.to_lanes()[lane]),
-            };
-            let sample = Sample {
-                vertex,
-                u: column(heights.u),
-                v: column(heights.v),
-                w: column(heights.w),
-                grades: rows.clone().map(|row| grade(row) / self.edge_length).collect(),
-                slopes: [slopes[0][lane], slopes[1][lane]],
-                plain: plain.map(|(squares, freedom)| (squares[lane], freedom[lane])),
-            };
-            let all_finite =
-                [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());
-            if all_finite {
-                self.samples.lock().unwrap_or_else(PoisonError::into_inner).push(sample);
-            }
-        }
-    }
-}
-
-impl PatchQuantity for Collector<'_> {
-    fn rings(&self) -> usize {
-        MOST_AUTOMATIC_RINGS
-    }
-    fn least(&self) -> usize {
-        0
-    }
-    fn scratch(&self, points: usize) -> usize {
-        scratch(points)
-    }
-    fn normals(&self) -> &[[f64; 3]] {
-        &self.around.normals
-    }
-    fn values(&self) -> Option<&[f64]> {
-        Some(&self.around.edge_lengths)
-    }
-    #[inline(always)]
-    fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        self.around.choose(vertex, found, chosen)
-    }
-
-    #[inline(always)]
-    fn block<V: Vector<Scalar = f64>>(
-        &self,
-        vertices: &[u32],
-        patch: &Patch<'_, V>,
-        scale: V,
-        _widened: u32,
-        _attempt: usize,
-        scratch: &mut [V],
-    ) -> u32 {
-        self.collect(vertices, patch, scale, scratch);
-        0
-    }
-
-    /// No block leaves anything over.
-    fn alone(
-        &self,
-        _vertex: usize,
-        _patch: &Patch<'_, f64>,
-        _scale: f64,
-        _widened: bool,
-        _last: bool,
-        _scratch: &mut [f64],
-    ) -> bool {
-        true
-    }
-    fn isolated(&self, _vertex: usize) {}
 }
 
 /// The numbers of a model, in units of the mesh's edge length.

@@ -4,18 +4,23 @@ mod adaptive_jet;
 mod adaptive_model;
 mod axes;
 mod cholesky;
+mod heights;
 mod jet;
 mod learning;
 mod least_squares;
+mod ridge;
+mod sample;
 mod surface;
+mod surroundings;
 mod tilted_sections;
 
 pub(crate) use adaptive_jet::{AdaptiveFit, AdaptiveJet};
 pub use adaptive_model::{AdaptiveModel, Coordinates};
 pub(crate) use axes::Axes;
 pub(crate) use jet::Jet;
-pub(crate) use learning::{Surroundings, learn};
+pub(crate) use learning::learn;
 pub(crate) use least_squares::{condition, solve};
+pub(crate) use surroundings::Surroundings;
 pub(crate) use tilted_sections::TiltedSums;
 
 use crate::error::Error;

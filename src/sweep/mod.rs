@@ -16,11 +16,13 @@
 mod calls;
 mod frames;
 mod patch;
+mod patch_sweep;
 mod ring;
 mod rows;
 
 pub(crate) use frames::{CANCELLED, area_vector};
-pub(crate) use patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity, sweep_patches};
+pub(crate) use patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity};
+pub(crate) use patch_sweep::sweep_patches;
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};

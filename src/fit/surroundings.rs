@@ -1,0 +1,85 @@
+//! What adaptive jets know of every one-ring, and which neighbours they let count.
+//!
+//! A neighbour counts if its one-ring normal is within 60° of the vertex's, which keeps what lies beyond folds and creases out, and if it
+//! is no spike. A vertex that may be on a crease keeps its first ring, so that the fit shows whether it is; and so does one with too few
+//! neighbours otherwise.
+
+use crate::sweep::Counts;
+use crate::topology::{Neighbourhood, Topology};
+use glam::DVec3;
+
+/// The cosine of the largest angle between the one-ring normals of a vertex and of a neighbour that counts.
+const SAME_SIDE: f64 = 0.5;
+
+/// A neighbourhood of fewer points, the vertex among them, keeps the first ring whatever its normals.
+const LEAST_POINTS: usize = 6;
+
+/// One-rings, as far as adaptive jets ask.
+#[derive(Debug, Default)]
+pub(crate) struct Surroundings {
+    /// Unit one-ring normals, zero where there is none.
+    pub normals: Vec<[f64; 3]>,
+    /// The mean length of each vertex's edges, those of its faces at the vertex.
+    pub edge_lengths: Vec<f64>,
+    /// [`Surroundings::SHARP`], [`Surroundings::SPIKE`] and [`Surroundings::BESIDE_SPIKE`].
+    pub marks: Vec<u8>,
+}
+
+impl Surroundings {
+    /// A face of the vertex is more than 37° from its normal.
+    pub const SHARP: u8 = 1;
+    /// The vertex stands out of its neighbours: it is no use to fits around others.
+    pub const SPIKE: u8 = 2;
+    /// A neighbour is a spike: what is sharp is so because of that.
+    pub const BESIDE_SPIKE: u8 = 4;
+
+    /// Whether a vertex may be on a crease.
+    #[inline(always)]
+    pub fn may_be_creased(&self, vertex: usize) -> bool {
+        self.marks[vertex] == Self::SHARP
+    }
+
+    /// Fills `chosen` with the neighbours on the same side of any crease.
+    #[inline(always)]
+    pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        let own = DVec3::from(self.normals[vertex as usize]);
+        let rings = self.may_be_creased(vertex as usize) as usize;
+        let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
+        if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
+    }
+
+    /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1, but for vertices with one of the `unwanted`
+    /// marks.
+    #[inline(always)]
+    fn choose_beyond(
+        &self,
+        own: DVec3,
+        found: &Neighbourhood,
+        rings: usize,
+        unwanted: u8,
+        chosen: &mut [u32],
+    ) -> Counts {
+        let mut counts = found.counts_within();
+        let mut count = 0;
+        let mut first = 0;
+        for (ring, ring_count) in counts.iter_mut().enumerate() {
+            let last = *ring_count as usize;
+            for &neighbour in &found.vertices()[first..last] {
+                chosen[count] = neighbour;
+                let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
+                let wanted = self.marks[neighbour as usize] & unwanted == 0;
+                count += ((near || ring < rings) && wanted) as usize;
+            }
+            *ring_count = count as u32;
+            first = last;
+        }
+        counts
+    }
+
+    /// Whether a vertex is away from creases.
+    pub fn is_clean(&self, vertex: u32, topology: &Topology, neighbourhood: &mut Neighbourhood) -> bool {
+        let own = DVec3::from(self.normals[vertex as usize]);
+        let near = |&neighbour: &u32| own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
+        self.marks[vertex as usize] == 0 && neighbourhood.gather(topology, vertex, 2).iter().all(near)
+    }
+}
