@@ -190,6 +190,11 @@ typedef struct umb_faces {
 } umb_faces;
 
 /**
+ * The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
+ */
+typedef uint32_t umb_simd;
+
+/**
  * How a topology is built. All zero: the defaults.
  */
 typedef struct umb_topology_options {
@@ -197,6 +202,14 @@ typedef struct umb_topology_options {
    * `sizeof(umb_topology_options)`; 0 stands for the size of its first version.
    */
   uint32_t struct_size;
+  /**
+   * The number of threads, the calling one among them; 0 for as many as pay, at most one a core. They end with the call.
+   */
+  uint32_t threads;
+  /**
+   * The widest vectors to use: a `UMB_SIMD_` constant.
+   */
+  umb_simd simd;
   /**
    * 0
    */
@@ -379,11 +392,6 @@ typedef struct umb_points {
  * polygon), a and b the lengths of its two edges there, A_i its area, g_i the distance to its centroid.
  */
 typedef uint32_t umb_weight;
-
-/**
- * The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
- */
-typedef uint32_t umb_simd;
 
 /**
  * Called on the calling thread with the fraction done, 0 to 1; non-zero cancels. It must return (no `longjmp`, no
@@ -1090,7 +1098,8 @@ typedef struct umb_polyline_outputs {
 #define UMB_INDEX_U64 2
 
 /**
- * The widest that the CPU has; the default.
+ * The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `sse2`,
+ * `avx2` or `avx512`; read once); the default.
  */
 #define UMB_SIMD_BEST 0
 
@@ -1340,8 +1349,9 @@ const char *umb_status_string(umb_status status);
  * name a vertex twice in a row lose the repetition; faces of fewer than three corners are ignored. No mesh is refused for
  * its shape.
  *
- * Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices. Held are about 16 bytes
- * a triangle, or 60 a quad; 24 more a triangle, or 48 a quad, while building.
+ * Cost: linear in the number of corners, apart from sorting the corners of vertices with more than eight of them or with
+ * several fans. Held are about 16 bytes a triangle, or 60 a quad; 33 more a triangle, or 97 a quad, while building, and
+ * with several threads 12 more. The handle is the same on any number of threads, with any vectors.
  *
  * @param faces the faces; read only during the call
  * @param vertex_count the number of vertices, at most 2^32 - 1, as of faces; there may be at most 2^31 - 1 corners
@@ -1747,7 +1757,8 @@ UMB_API
 uint32_t umb_abi_version(void);
 
 /**
- * Name, version and the vectors that this CPU's calls use by default, in one line for logs. Static.
+ * Name, version and the vectors that calls use by default, in one line for logs: the widest that the CPU has, or those that
+ * the environment variable `UMBILIC_SIMD` (`portable`, `sse2`, `avx2`, `avx512`) names if they are narrower. Static.
  *
  * @since 0.1.0
  */

@@ -180,23 +180,27 @@ pub(crate) fn for_each_chunk(
     Ok(())
 }
 
+/// Has `work` done on each of `parts` by up to `threads` threads.
+pub(crate) fn for_each_part<T: Send>(threads: usize, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
+    let parts = Mutex::new(parts);
+    let work = || {
+        loop {
+            let claimed = parts.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some(part) = claimed else { break };
+            work(part);
+        }
+    };
+    with_threads(threads, work, work);
+}
+
 /// Sets each element to `value(index)`, by as many threads as `threads` asks for (0: as many as pay).
 pub(crate) fn fill<T: Send>(threads: usize, elements: &mut [T], value: impl Fn(usize) -> T + Sync) {
     const CHUNK: usize = 2048;
     let threads = thread_count(threads, elements.len().div_ceil(CHUNK));
-    let fill_part = |start: usize, part: &mut [T]| {
-        for (index, element) in part.iter_mut().enumerate() {
-            *element = value(start + index);
-        }
-    };
     let length = elements.len().div_ceil(threads).max(1);
-    let parts = Mutex::new(elements.chunks_mut(length).enumerate());
-    let work = || {
-        loop {
-            let claimed = parts.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((index, part)) = claimed else { break };
-            fill_part(index * length, part);
+    for_each_part(threads, elements.chunks_mut(length).enumerate(), |(index, part)| {
+        for (place, element) in part.iter_mut().enumerate() {
+            *element = value(index * length + place);
         }
-    };
-    with_threads(threads, work, work);
+    });
 }

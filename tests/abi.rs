@@ -35,7 +35,7 @@ fn layouts() {
     layout!(umb_section_options: 136, struct_size 0, section 4, weight 8, shared 12, normals 16, directions 48, normal_degree 80, normal_rings 84, model 88, run 96);
     layout!(umb_section_outputs: 72, struct_size 0, reserved 4, curvature 8, status 32, normal 48);
     layout!(umb_status_output: 16, data 0, stride 8);
-    layout!(umb_topology_options: 8, struct_size 0, reserved 4);
+    layout!(umb_topology_options: 16, struct_size 0, threads 4, simd 8, reserved 12);
     layout!(umb_topology_stats: 152, struct_size 0, reserved 4, vertex_count 8, face_count 16, corner_count 24, edge_count 32, boundary_edges 40, non_manifold_edges 48, winding_edges 56, isolated_vertices 64, boundary_vertices 72, non_manifold_vertices 80, degenerate_faces 88, ignored_faces 96, duplicate_faces 104, component_count 112, boundary_loops 120, euler_characteristic 128, max_valence 136, bytes 144);
 }
 

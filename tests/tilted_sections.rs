@@ -154,7 +154,7 @@ fn rings_on_spheres_have_exact_normals_and_curvatures() {
         let r = 10f64.powf(6.0 * random.signed());
         let count = 4 + round % 9;
         // Rounding is magnified where few edges hardly tell the curvatures apart.
-        let tolerance = if count < 5 { 1e-9 } else { 1e-11 };
+        let tolerance = if count < 5 { 1e-9 } else { 1e-12 };
         let ring = on_sphere(&mut random, n, r, count);
         let mut positions = vec![[0.0; 3]];
         positions.extend(&ring);
@@ -211,7 +211,7 @@ fn several_fans_on_one_sphere_agree() {
         let mesh = Mesh::new("fans", positions, faces);
         let found = of_method(&mesh, Method::TiltedSections);
         assert_eq!(found.status[0], status::NON_MANIFOLD);
-        check_sphere(&found, n, r, 1e-11, &format!("round {round}"));
+        check_sphere(&found, n, r, 1e-12, &format!("round {round}"));
     }
 }
 

@@ -8,6 +8,7 @@ use common::mesh::{self, Mesh, letter_prism, ring_sphere, soup, torus};
 use common::oracle::cleaned;
 use std::collections::{HashMap, HashSet};
 use umbilic::capi::*;
+use umbilic::{Faces, Level, Topology, TopologyStats};
 
 fn fans(handle: &Handle, vertex: usize) -> Vec<(Vec<u32>, usize, bool)> {
     let (mut count, error) = (0, std::ptr::null_mut());
@@ -242,4 +243,96 @@ fn hostile_meshes_take_linear_time() {
         });
     }
     assert_eq!(fans(&Handle::new(&hub), 0).len(), count as usize);
+}
+
+/// Several windows of vertices, hubs of many corners, borders, soups and isolated vertices in one mesh.
+fn everything(sides: usize, seed: u64) -> Mesh {
+    let base = torus(130, 70, 0.3, if sides == 3 { 0.0 } else { 0.6 }, seed);
+    let mut faces: Vec<Vec<u32>> = base.faces().map(<[u32]>::to_vec).collect();
+    let count = base.positions.len() as u32;
+    let mut state = seed * 2 + 1;
+    let mut below = |limit: u32| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 33) % limit as u64) as u32
+    };
+    // Holes.
+    faces.retain(|_| below(40) > 0);
+    // Closed fans of 6 to 40 corners around new vertices, a strip of them beyond the torus.
+    let mut next = count + 5;
+    for corners in 6..=40 {
+        let hub = next;
+        next += corners + 1;
+        faces.extend((0..corners).map(|i| vec![hub, hub + 1 + i, hub + 1 + (i + 1) % corners]));
+    }
+    // Faces at random, many of them at a few vertices.
+    for _ in 0..500 {
+        let face: Vec<u32> = (0..sides).map(|_| if below(2) == 0 { below(next) } else { below(9) * 611 }).collect();
+        faces.insert(below(faces.len() as u32) as usize, face);
+    }
+    Mesh::new("everything", vec![[0.0; 3]; next as usize + 3], faces)
+}
+
+#[test]
+fn threads_and_vectors_build_the_same() {
+    for (sides, seed) in [(3, 1), (3, 2), (3, 3), (6, 4), (5, 5)] {
+        let mesh = everything(sides, seed);
+        let faces = Faces::polygons(&mesh.indices, &mesh.offsets).unwrap();
+        let all = |threads, level| Topology::with_threads(&faces, mesh.positions.len(), threads, level).unwrap();
+        let base = all(1, Level::PORTABLE);
+        assert!(base.vertex_count() > 4 * 2048);
+        for threads in [1, 2, 3, 5, 8] {
+            for level in Level::all() {
+                let built = all(threads, level);
+                assert_eq!(built.ring_offsets(), base.ring_offsets());
+                assert!(built.ring_neighbours() == base.ring_neighbours() && built.flags() == base.flags());
+                let stats = |topology: &Topology| TopologyStats { bytes: 0, ..topology.stats().unwrap() };
+                assert_eq!(stats(&built), stats(&base), "{threads} threads, {}", level.name());
+                for vertex in 0..mesh.positions.len() {
+                    assert!(built.fans(vertex).eq(base.fans(vertex)), "vertex {vertex}, {threads} threads");
+                }
+            }
+        }
+        // Each corner once, where its vertex has it.
+        let mut corners: Vec<HashSet<(u32, u32)>> = vec![HashSet::new(); mesh.positions.len()];
+        let mut counts = vec![0; mesh.positions.len()];
+        for face in mesh.faces().map(cleaned) {
+            for i in 0..face.len() {
+                let at = |offset: usize| face[(i + offset) % face.len()];
+                corners[at(0) as usize].insert((at(1), at(face.len() - 1)));
+                counts[at(0) as usize] += 1;
+            }
+        }
+        let mut closed = 0;
+        for vertex in 0..mesh.positions.len() {
+            let mut found = 0;
+            for fan in base.fans(vertex) {
+                let around = fan.neighbours.iter().chain(fan.neighbours.first().filter(|_| fan.closed));
+                let around: Vec<u32> = around.copied().collect();
+                assert_eq!(around.len(), fan.corner_count + 1);
+                assert!(around.windows(2).all(|pair| corners[vertex].contains(&(pair[0], pair[1]))));
+                found += fan.corner_count;
+                closed += (fan.closed && fan.corner_count > 8) as usize;
+            }
+            assert_eq!(found, counts[vertex], "vertex {vertex}");
+        }
+        assert!(closed > 30, "{closed}");
+    }
+}
+
+#[test]
+fn an_index_out_of_range_is_the_first_on_any_number_of_threads() {
+    let mut mesh = everything(3, 6);
+    let count = mesh.positions.len();
+    (mesh.indices[20_000], mesh.indices[40_001]) = (count as u32, u32::MAX);
+    let faces = Faces::triangles(&mesh.indices[..]).unwrap();
+    for threads in 1..=8 {
+        let error = Topology::with_threads(&faces, count, threads, Level::best()).unwrap_err();
+        let expected = umbilic::Error::IndexOutOfRange {
+            what: "faces.indices",
+            position: 20_000,
+            index: count as i128,
+            vertex_count: count as u64,
+        };
+        assert_eq!(error, expected);
+    }
 }

@@ -26,7 +26,8 @@ pub const UMB_INDEX_U64: umb_index = 2;
 
 /// The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
 pub type umb_simd = u32;
-/// The widest that the CPU has; the default.
+/// The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `sse2`,
+/// `avx2` or `avx512`; read once); the default.
 pub const UMB_SIMD_BEST: umb_simd = 0;
 /// None: plain code that runs on any CPU.
 pub const UMB_SIMD_PORTABLE: umb_simd = 1;
@@ -145,7 +146,7 @@ macro_rules! versioned {
 }
 // The sizes of the first versions, which never change, with pointers of 64 and of 32 bits.
 versioned! {
-    umb_topology_options: 8, 8;
+    umb_topology_options: 16, 16;
     umb_topology_stats: 152, 152;
     umb_adaptive_model: 88, 88;
     umb_normal_options: 64, 44;
@@ -256,6 +257,19 @@ impl umb_status_output {
     }
 }
 
+/// The level that a `UMB_SIMD_` constant stands for.
+pub(super) fn level_of(simd: umb_simd, what: &'static str) -> Result<Level, Error> {
+    let level = match simd {
+        UMB_SIMD_BEST => Some(Level::best()),
+        UMB_SIMD_PORTABLE => Level::capped("portable"),
+        UMB_SIMD_SSE2 => Level::capped("sse2"),
+        UMB_SIMD_AVX2 => Level::capped("avx2"),
+        UMB_SIMD_AVX512 => Level::capped("avx512"),
+        _ => None,
+    };
+    level.ok_or(Error::UnknownConstant { what, value: simd as u64 })
+}
+
 impl umb_run {
     /// The progress callback, as Rust calls it.
     pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
@@ -273,15 +287,7 @@ impl umb_run {
     /// # Safety
     /// `vertices` points to `vertex_count` readable indices, or is null.
     pub(super) unsafe fn view<'a>(&self, progress: Option<&'a mut dyn FnMut(f64) -> bool>) -> Result<Run<'a>, Error> {
-        let level = match self.simd {
-            UMB_SIMD_BEST => Some(Level::best()),
-            UMB_SIMD_PORTABLE => Level::capped("portable"),
-            UMB_SIMD_SSE2 => Level::capped("sse2"),
-            UMB_SIMD_AVX2 => Level::capped("avx2"),
-            UMB_SIMD_AVX512 => Level::capped("avx512"),
-            _ => None,
-        };
-        let level = level.ok_or(Error::UnknownConstant { what: "run.simd", value: self.simd as u64 })?;
+        let level = level_of(self.simd, "run.simd")?;
         let vertices = if self.vertices.is_null() {
             if self.vertex_count > 0 {
                 return Err(Error::NullPointer { what: "run.vertices" });

@@ -29,7 +29,8 @@ macro_rules! info {
     };
 }
 
-/// Name, version and the vectors that this CPU's calls use by default, in one line for logs. Static.
+/// Name, version and the vectors that calls use by default, in one line for logs: the widest that the CPU has, or those that
+/// the environment variable `UMBILIC_SIMD` (`portable`, `sse2`, `avx2`, `avx512`) names if they are narrower. Static.
 ///
 /// @since 0.1.0
 #[unsafe(no_mangle)]

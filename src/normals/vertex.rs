@@ -132,7 +132,13 @@ pub fn vertex_normals_from_faces(
     run: Run<'_>,
     outputs: &NormalOutputs<'_>,
 ) -> Result<(), Error> {
-    vertex_normals(&Topology::new(faces, points.len())?, points, weight, run, outputs)
+    vertex_normals(
+        &Topology::with_threads(faces, points.len(), run.threads, run.level)?,
+        points,
+        weight,
+        run,
+        outputs,
+    )
 }
 
 struct Normals<'a, E> {

@@ -13,6 +13,8 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+use std::sync::OnceLock;
+
 pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
 pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3, as_lanes, as_scalars};
 
@@ -38,8 +40,17 @@ impl Level {
     /// Plain Rust arrays, on any CPU.
     pub const PORTABLE: Level = Level(Kind::Portable);
 
-    /// The widest level of this CPU.
+    /// The widest level of this CPU, or the one that the environment variable `UMBILIC_SIMD` names if that is narrower; the
+    /// variable is read once in the life of a process, and any other value of it has no effect.
     pub fn best() -> Level {
+        static BEST: OnceLock<Level> = OnceLock::new();
+        *BEST.get_or_init(|| {
+            let cap = std::env::var("UMBILIC_SIMD").ok().and_then(|name| Level::named(&name));
+            cap.map_or(Level::detected(), |cap| cap.min(Level::detected()))
+        })
+    }
+
+    fn detected() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
             // Every feature that the functions of a level are compiled with: a virtual machine may mask any of them.
@@ -62,7 +73,7 @@ impl Level {
         Level(Kind::Portable)
     }
 
-    /// Every level of this CPU, narrowest first.
+    /// Every level up to [`Level::best`], narrowest first.
     pub fn all() -> Vec<Level> {
         [
             Kind::Portable,
@@ -79,21 +90,25 @@ impl Level {
         .collect()
     }
 
-    /// The widest level of this CPU that is not above the level called `name`; `None` for an unknown name.
+    /// The widest of [`Level::all`] that is not above the level called `name`; `None` for an unknown name.
     pub fn capped(name: &str) -> Option<Level> {
-        let cap = match name {
-            "portable" => Level(Kind::Portable),
+        Level::named(name).map(|cap| cap.min(Level::best()))
+    }
+
+    /// What a name stands for, whether the CPU has it or not.
+    fn named(name: &str) -> Option<Level> {
+        Some(Level(match name {
+            "portable" => Kind::Portable,
             #[cfg(target_arch = "x86_64")]
-            "sse2" => Level(Kind::Sse2),
+            "sse2" => Kind::Sse2,
             #[cfg(target_arch = "x86_64")]
-            "avx2" => Level(Kind::Avx2),
+            "avx2" => Kind::Avx2,
             #[cfg(target_arch = "x86_64")]
-            "avx512" => Level(Kind::Avx512),
+            "avx512" => Kind::Avx512,
             #[cfg(not(target_arch = "x86_64"))]
-            "sse2" | "avx2" | "avx512" => Level(Kind::Portable),
+            "sse2" | "avx2" | "avx512" => Kind::Portable,
             _ => return None,
-        };
-        Some(cap.min(Level::best()))
+        }))
     }
 
     /// `"portable"`, `"sse2"`, `"avx2"` or `"avx512"`.
@@ -122,6 +137,15 @@ pub(crate) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], co
         return x86::follow_chain(keys, links, count);
     }
     portable::follow_chain(keys, links, count)
+}
+
+/// Fetches the cache lines of a value ahead of its use.
+#[inline(always)]
+pub(crate) fn prefetch<T>(value: &T) {
+    #[cfg(target_arch = "x86_64")]
+    x86::prefetch(value);
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = value;
 }
 
 /// The pair of vector types that a level works with.

@@ -4,11 +4,12 @@
 //! directions. Whatever else an edge has (one face, two of the same direction, three or more) ends the fans on all its
 //! sides. The rule does not depend on the order of faces. Cost: `m log m` for `m` corners.
 
-use super::flat::{Flat, NO_FACE, Record};
+use super::corners::Record;
 use super::polygons::Polygons;
 use super::stats::Defects;
-use super::{Fan, status};
+use super::{Fan, NO_FACE, status};
 use crate::error::Error;
+use crate::view::RingPart;
 
 /// A fan of a vertex that is not a lone closed one.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +66,18 @@ impl<'a> FanBuilder<'a> {
         }
     }
 
-    /// Adds the fans of a vertex to the flat arrays; answers the vertex's status bits.
-    pub fn add<R: Record>(&mut self, vertex: u32, records: &[R], flat: &mut Flat) -> Result<u8, Error> {
+    /// Counts corners, those of lone closed fans among them.
+    pub fn count_corners(&mut self, count: usize) {
+        self.defects.corner_count += count;
+    }
+
+    /// Adds the fans of a vertex to its ring; answers the vertex's status bits and the lone fan, if it is one.
+    pub fn add<R: Record>(
+        &mut self,
+        vertex: u32,
+        records: &[R],
+        rings: &mut RingPart<'_>,
+    ) -> Result<(u8, Option<FanRecord>), Error> {
         let count = records.len();
         for buffer in [&mut self.by_next, &mut self.by_prev, &mut self.successor] {
             buffer.clear();
@@ -77,6 +88,8 @@ impl<'a> FanBuilder<'a> {
         self.taken.resize(count, false);
         self.fans.try_reserve(count)?;
         self.successor.resize(count, NONE);
+        // Open fans have an entry more than corners.
+        rings.reserve(2 * count)?;
         self.by_next.extend(0..count as u32);
         self.by_prev.extend(0..count as u32);
         self.by_next.sort_unstable_by_key(|&corner| (records[corner as usize].next(), corner));
@@ -84,20 +97,21 @@ impl<'a> FanBuilder<'a> {
 
         let mut flags = self.join(vertex, records)?;
         let first = self.fans.len();
-        let ring_start = flat.length;
+        let ring_start = rings.entry_count();
         // Open fans start at a corner that follows none; what is left after them are closed ones.
         for open in [true, false] {
             for corner in 0..count {
                 let starts = if open { !self.taken[corner] } else { self.successor[corner] != NONE };
                 if starts {
-                    self.emit(vertex, records, corner, !open, ring_start, flat)?;
+                    self.emit(vertex, records, corner, !open, ring_start, rings);
                 }
             }
         }
         if self.fans.len() - first > 1 {
             flags |= status::NON_MANIFOLD;
         }
-        Ok(flags)
+        let lone = if let [fan] = self.fans[first..] { Some(fan) } else { None };
+        Ok((flags, lone))
     }
 
     /// Finds each corner's successor, and counts what is wrong with the edges.
@@ -149,14 +163,14 @@ impl<'a> FanBuilder<'a> {
         corner: usize,
         closed: bool,
         ring_start: usize,
-        flat: &mut Flat,
-    ) -> Result<(), Error> {
-        let start = flat.length - ring_start;
+        rings: &mut RingPart<'_>,
+    ) {
+        let start = rings.entry_count() - ring_start;
         let mut corners = 0;
         let mut current = corner;
         loop {
             let record = records[current];
-            flat.push(record.next(), record.face().unwrap_or(NO_FACE))?;
+            rings.push(&[record.next()], &[record.face().unwrap_or(NO_FACE)], 1);
             self.taken[current] = true;
             corners += 1;
             // A corner without a successor is never a start again.
@@ -167,10 +181,9 @@ impl<'a> FanBuilder<'a> {
             current = next as usize;
         }
         if !closed {
-            flat.push(records[current].prev(), NO_FACE)?;
+            rings.push(&[records[current].prev()], &[NO_FACE], 1);
         }
         self.fans.push(FanRecord { vertex, start: start as u32, corners, closed });
-        Ok(())
     }
 
     /// Counts triangles that repeat an earlier one, at their lowest vertex, where they are told by their two other
@@ -178,7 +191,7 @@ impl<'a> FanBuilder<'a> {
     fn find_duplicates<R: Record>(&mut self, vertex: u32, records: &[R]) -> Result<(), Error> {
         let next = |corner: &u32| records[*corner as usize].next();
         for run in self.by_next.chunk_by_mut(|a, b| next(a) == next(b)).filter(|run| run.len() > 1) {
-            if R::HAS_FACE {
+            if self.polygons.is_some() {
                 self.suspects.try_reserve(run.len())?;
                 self.suspects.extend(run.iter().filter_map(|&corner| records[corner as usize].face()));
             } else if vertex < next(&run[0]) {
@@ -187,6 +200,16 @@ impl<'a> FanBuilder<'a> {
                 self.defects.duplicate_faces += prevs.filter(|[a, b]| a == b && vertex < *a).count();
             }
         }
+        Ok(())
+    }
+
+    /// Takes over what another found at the vertices that follow.
+    pub fn append(&mut self, mut other: FanBuilder<'a>) -> Result<(), Error> {
+        self.fans.try_reserve(other.fans.len())?;
+        self.fans.append(&mut other.fans);
+        self.suspects.try_reserve(other.suspects.len())?;
+        self.suspects.append(&mut other.suspects);
+        self.defects.add(&other.defects);
         Ok(())
     }
 

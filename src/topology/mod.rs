@@ -3,20 +3,21 @@
 
 mod build;
 mod closure;
+mod corners;
 mod fans;
-mod flat;
 mod neighbourhood;
+mod order;
 mod polygons;
 mod stats;
 
 pub use stats::TopologyStats;
 
 pub(crate) use closure::closure;
-pub(crate) use flat::NO_FACE;
 pub(crate) use neighbourhood::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
 pub(crate) use polygons::Polygons;
 
 use crate::error::{Error, reserved};
+use crate::simd::Level;
 use crate::view::{Faces, RingClass, Rings};
 use fans::FanRecord;
 
@@ -78,6 +79,9 @@ pub struct Fan<'a> {
     pub(crate) start: usize,
 }
 
+/// Stands in the table of corner faces at the end of an open fan.
+pub(crate) const NO_FACE: u32 = u32::MAX;
+
 /// The largest number of vertices; one less than the number of 32-bit values, which serve as indices.
 const MAX_VERTICES: u64 = u32::MAX as u64;
 
@@ -95,13 +99,23 @@ fn sorted(ring: &[u32]) -> Result<Vec<u32>, Error> {
 impl Topology {
     /// Builds the one-rings of `faces` over `vertex_count` vertices.
     ///
-    /// Cost: linear in the number of corners, apart from sorting the corners of non-manifold vertices.
+    /// Cost: linear in the number of corners, apart from sorting the corners of vertices with more than eight of them or
+    /// with several fans. As many threads as pay.
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`]; [`Error::TooLarge`] beyond 2³² − 1 vertices or faces, or 2³¹ − 1
     /// corners;
     /// [`Error::OutOfMemory`].
     pub fn new(faces: &Faces<'_>, vertex_count: usize) -> Result<Self, Error> {
+        Self::with_threads(faces, vertex_count, 0, Level::best())
+    }
+
+    /// As [`Topology::new`], with up to `threads` threads (0: as many as pay) and vectors of at most `level`. Neither
+    /// changes what is built.
+    ///
+    /// # Errors
+    /// As [`Topology::new`].
+    pub fn with_threads(faces: &Faces<'_>, vertex_count: usize, threads: usize, level: Level) -> Result<Self, Error> {
         if vertex_count as u64 > MAX_VERTICES {
             return Err(Error::TooLarge { what: "vertices", found: vertex_count as u64, limit: MAX_VERTICES });
         }
@@ -113,8 +127,7 @@ impl Topology {
         if faces.len() as u64 > MAX_FACES {
             return Err(Error::TooLarge { what: "faces", found: faces.len() as u64, limit: MAX_FACES });
         }
-        faces.indices().check_range("faces.indices", vertex_count)?;
-        build::build(faces, vertex_count)
+        build::build(faces, vertex_count, threads, level)
     }
 
     /// The number of vertices.

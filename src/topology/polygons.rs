@@ -51,10 +51,6 @@ impl Polygons {
         self.offsets.len() - 1
     }
 
-    pub(crate) fn corner_count(&self) -> usize {
-        self.vertices.len()
-    }
-
     /// The corners of a face, none where it is ignored.
     pub(crate) fn face(&self, face: usize) -> &[u32] {
         &self.vertices[self.offsets[face] as usize..self.offsets[face + 1] as usize]

@@ -17,6 +17,17 @@ pub(super) struct Defects {
     pub non_manifold_edges: usize,
 }
 
+impl Defects {
+    /// Adds the counts of other vertices of the same faces.
+    pub fn add(&mut self, other: &Defects) {
+        self.corner_count += other.corner_count;
+        self.duplicate_faces += other.duplicate_faces;
+        self.boundary_edges += other.boundary_edges;
+        self.winding_edges += other.winding_edges;
+        self.non_manifold_edges += other.non_manifold_edges;
+    }
+}
+
 /// What a mesh is made of, and what is wrong with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TopologyStats {

@@ -51,6 +51,7 @@ macro_rules! index {
                     Err(_) => (self as $unsigned) > (<$integer>::MAX as $unsigned),
                 }
             }
+            #[inline(always)]
             fn as_written(self) -> i128 {
                 self as i128
             }

@@ -1,6 +1,6 @@
-//! Zeroed memory straight from the allocator, in huge pages where the system has them.
+//! Large blocks straight from the allocator, in huge pages where the system has them.
 
-use crate::error::Error;
+use crate::error::{Error, reserved};
 use std::alloc::{Layout, alloc_zeroed};
 
 /// Numbers of which all bits zero is a value.
@@ -10,6 +10,8 @@ use std::alloc::{Layout, alloc_zeroed};
 pub(crate) unsafe trait Zero: Copy {}
 // SAFETY: numbers, and arrays of them.
 unsafe impl Zero for u8 {}
+// SAFETY: as above.
+unsafe impl Zero for u16 {}
 // SAFETY: as above.
 unsafe impl Zero for u32 {}
 // SAFETY: as above.
@@ -36,6 +38,15 @@ pub(crate) fn zeroed<T: Zero>(count: usize) -> Result<Vec<T>, Error> {
         use_huge_pages(block.cast(), layout.size());
         Ok(Vec::from_raw_parts(block, count, count))
     }
+}
+
+/// An empty vector with room for `count` elements, or [`Error::OutOfMemory`].
+pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
+    let mut rows: Vec<T> = reserved(count)?;
+    let spare = rows.spare_capacity_mut();
+    // SAFETY: the vector's own block, which holds nothing yet.
+    unsafe { use_huge_pages(spare.as_mut_ptr().cast(), size_of_val(spare)) };
+    Ok(rows)
 }
 
 /// Asks for huge pages in a large block that has not been touched yet: first touches cost more than a topology's whole

@@ -9,17 +9,21 @@ mod memory;
 mod output;
 mod points;
 mod polyline;
+mod ring_table;
 mod rings;
+mod slots;
 
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
-pub(crate) use memory::{Zero, zeroed};
+pub(crate) use memory::zeroed;
 pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};
 pub(crate) use polyline::PolylineArray;
 pub use polyline::PolylinePoints;
+pub(crate) use ring_table::{RingPart, RingTable};
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
+pub(crate) use slots::{BLOCK, Put, SLOTS, Slots, SlotsPart};
 
 use crate::error::Error;
 

@@ -7,7 +7,6 @@
 //! carry past the caller's buffer (that is, not the last vertex's).
 
 use super::points::{Coordinate, StridedPoints, gather_converted};
-use crate::error::{Error, filled, reserved};
 use crate::simd::{MAX_LANES, Vector, Vector3};
 use std::any::TypeId;
 
@@ -61,11 +60,12 @@ impl Batch {
     }
 }
 
-const CLASSES: usize = 2 * MAX_LANE_CORNERS + 2;
+pub(super) const CLASSES: usize = 2 * MAX_LANE_CORNERS + 2;
 const ALONE: u8 = CLASSES as u8 - 1;
 
 impl RingClass {
-    fn code(self) -> u8 {
+    #[inline(always)]
+    pub(super) fn code(self) -> u8 {
         match self {
             RingClass::Isolated => 0,
             RingClass::Lanes { corners, closed } => {
@@ -87,7 +87,7 @@ impl RingClass {
 
 /// A run of vertices of one class in a window's order.
 #[derive(Clone, Copy, Debug)]
-struct Slice {
+pub(super) struct Slice {
     /// The first, counted from the window's start.
     first: u16,
     class: u8,
@@ -109,61 +109,29 @@ pub(crate) struct Rings {
 }
 
 impl Rings {
-    /// Checks and sorts. `fan_class(v, entries)`, called for the vertices in order, says for a vertex with a single fan
-    /// of at most [`MAX_LANE_CORNERS`] corners how many they are and whether the fan is closed, and `None` for every
-    /// other vertex.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    ///
-    /// # Panics
-    /// If the table is not one: offsets that do not fit the neighbours, or a neighbour that is no vertex.
-    pub(crate) fn new(
+    /// Takes over what a [`RingTable`](super::RingTable) has checked.
+    pub(super) fn from_table(
         offsets: Vec<u32>,
         neighbours: Vec<u32>,
-        mut fan_class: impl FnMut(usize, usize) -> Option<(usize, bool)>,
-    ) -> Result<Self, Error> {
-        let vertex_count = offsets.len() - 1;
-        assert!(offsets[0] == 0 && offsets[vertex_count] as usize == neighbours.len());
-        assert!(offsets.windows(2).fold(true, |ascending, pair| ascending & (pair[0] <= pair[1])));
-        assert!(neighbours.iter().fold(true, |inside, &neighbour| inside & ((neighbour as usize) < vertex_count)));
-        let last = vertex_count.wrapping_sub(1) as u32;
-        let mut classes = filled(vertex_count, 0u8)?;
-        for (vertex, class) in classes.iter_mut().enumerate() {
-            let entries = (offsets[vertex + 1] - offsets[vertex]) as usize;
-            *class = match fan_class(vertex, entries) {
-                _ if entries == 0 => RingClass::Isolated,
-                Some((corners, closed)) if vertex as u32 != last => {
-                    assert_eq!(entries, corners + !closed as usize);
-                    RingClass::Lanes { corners, closed }
-                }
-                _ => RingClass::Alone,
-            }
-            .code();
-        }
-        // Few rings hold the last vertex; each is found from where it stands in the flat array.
-        const BLOCK: usize = 1024;
-        for (block, entries) in neighbours.chunks(BLOCK).enumerate() {
-            if entries.iter().fold(false, |found, &neighbour| found | (neighbour == last)) {
-                for (index, _) in entries.iter().enumerate().filter(|(_, neighbour)| **neighbour == last) {
-                    let entry = (block * BLOCK + index) as u32;
-                    classes[offsets.partition_point(|&offset| offset <= entry) - 1] = RingClass::Alone.code();
-                }
-            }
-        }
-        let windows = vertex_count.div_ceil(WINDOW);
-        let mut order = filled(vertex_count, 0u16)?;
-        let mut slices = reserved(windows * 4)?;
-        let mut window_slices = reserved(windows + 1)?;
-        for (window, codes) in classes.chunks(WINDOW).enumerate() {
-            window_slices.push(slices.len() as u32);
-            slices.try_reserve(CLASSES)?;
-            let sorted = &mut order[window * WINDOW..][..codes.len()];
-            bucket(codes, |place, index| sorted[place] = index as u16, |slice| slices.push(slice));
-        }
-        window_slices.push(slices.len() as u32);
+        classes: Vec<u8>,
+        order: Vec<u16>,
+        mut slices: Vec<Slice>,
+        window_slices: Vec<u32>,
+    ) -> Self {
+        assert!(offsets.len() == classes.len() + 1 && offsets[classes.len()] as usize == neighbours.len());
         slices.shrink_to_fit();
-        Ok(Rings { offsets, neighbours, classes, order, slices, window_slices })
+        Rings { offsets, neighbours, classes, order, slices, window_slices }
+    }
+
+    /// The vertices of [`RingClass::Alone`], in order.
+    pub(crate) fn alone(&self) -> impl Iterator<Item = usize> {
+        const CHUNK: usize = 64;
+        let chunks = self.classes.chunks(CHUNK).enumerate();
+        let some = chunks.filter(|(_, codes)| codes.iter().fold(false, |some, &code| some | (code == ALONE)));
+        some.flat_map(|(chunk, codes)| {
+            let alone = codes.iter().enumerate().filter(|(_, code)| **code == ALONE);
+            alone.map(move |(index, _)| chunk * CHUNK + index)
+        })
     }
 
     pub(crate) fn vertex_count(&self) -> usize {
@@ -378,7 +346,13 @@ unsafe fn gather<const WIDE: bool, V: Vector, S: Coordinate>(
 
 /// Counting sort by class: `place(position, index)` for every index, and `open` for each class that occurs.
 #[inline(always)]
-fn bucket(codes: &[u8], mut place: impl FnMut(usize, usize), mut open: impl FnMut(Slice)) {
+pub(super) fn bucket(codes: &[u8], mut place: impl FnMut(usize, usize), mut open: impl FnMut(Slice)) {
+    // Often all are of one class.
+    if let Some(&class) = codes.first().filter(|first| codes.iter().fold(true, |same, code| same & (code == *first)))
+    {
+        open(Slice { first: 0, class });
+        return (0..codes.len()).for_each(|index| place(index, index));
+    }
     let mut starts = [0usize; CLASSES];
     for &code in codes {
         starts[code as usize] += 1;

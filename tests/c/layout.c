@@ -166,9 +166,11 @@ SIZE(umb_status_output, 16);
 OFFSET(umb_status_output, data, 0);
 OFFSET(umb_status_output, stride, 8);
 
-SIZE(umb_topology_options, 8);
+SIZE(umb_topology_options, 16);
 OFFSET(umb_topology_options, struct_size, 0);
-OFFSET(umb_topology_options, reserved, 4);
+OFFSET(umb_topology_options, threads, 4);
+OFFSET(umb_topology_options, simd, 8);
+OFFSET(umb_topology_options, reserved, 12);
 
 SIZE(umb_topology_stats, 152);
 OFFSET(umb_topology_stats, struct_size, 0);
