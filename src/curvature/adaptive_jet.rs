@@ -9,7 +9,7 @@
 
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::{Frame, Operator};
-use super::ring::{Curvatures, RingEstimator};
+use super::ring::{Curvatures, OwnNormals, RingEstimator};
 use super::shape_operator::LeastSquares;
 use super::{CurvatureOptions, Section};
 use crate::error::Error;
@@ -17,7 +17,7 @@ use crate::fit::AdaptiveJet;
 use crate::normals::{AdaptiveOptions, Sink, adaptive_jets};
 use crate::parallel::Run;
 use crate::simd::{MAX_LANES, Vector, Vector3};
-use crate::sweep::{Ring, RingFaces, Scratch, sweep};
+use crate::sweep::{NormalRows, Ring, RingFaces, Scratch, sweep};
 use crate::topology::{Topology, status};
 use crate::view::Points;
 
@@ -43,6 +43,7 @@ struct Results<'a> {
 struct CreaseSections(LeastSquares);
 
 impl RingEstimator for CreaseSections {
+    const SINGLE: bool = false;
     type Sums<V: Vector> = <LeastSquares as RingEstimator>::Sums<V>;
 
     #[inline(always)]
@@ -96,7 +97,7 @@ impl Sink for Results<'_> {
         let lanes = lanes & found.trusted();
         let (flags, scales) = (self.topology.flags(), scale.to_lanes());
         let block = Block { vertices, lanes, scales, residual_power: 1, flags, more, fallbacks: 0 };
-        self.outputs.write(&block, &found.rows());
+        self.outputs.write(&block, &found.rows(self.outputs.taken()));
         lanes
     }
 
@@ -111,14 +112,14 @@ impl Sink for Results<'_> {
         let (flags, scales) = (self.topology.flags(), [1.0; MAX_LANES]);
         let vertices = &[vertex as u32];
         let block = Block { vertices, lanes: 1, scales, residual_power: 1, flags, more, fallbacks: 0 };
-        self.outputs.write(&block, &flat.rows());
+        self.outputs.write(&block, &flat.rows(self.outputs.taken()));
     }
 
     fn write_creases(&self, mut run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
         let creases = Curvatures {
             outputs: self.outputs,
             flags: self.topology.flags(),
-            normals,
+            normals: OwnNormals::Rows(NormalRows::Double(normals)),
             estimator: CreaseSections(LeastSquares { section: Section::Circle }),
             more: status::CREASE | status::FALLBACK,
         };

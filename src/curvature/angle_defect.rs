@@ -17,7 +17,7 @@
 use super::outputs::Local;
 use super::principal::Frame;
 use super::ring::RingEstimator;
-use crate::simd::{Mask, Vector};
+use crate::simd::{Mask, Real, Vector};
 use crate::sweep::{Ring, RingFaces, Scratch};
 use std::f64::consts::{PI, TAU};
 
@@ -26,6 +26,13 @@ const LARGEST_GAUSSIAN: f64 = f64::from_bits((1023 + 400) << 52);
 
 /// Gauss–Bonnet.
 pub(crate) struct AngleDefect;
+
+/// In single precision, where an area is not so small, in units in which the ring is about 1 across, that rounding would show.
+#[inline(always)]
+pub(crate) fn large_enough<V: Vector>(area: V) -> V::Mask {
+    let least = if V::Scalar::SINGLE { 1.0 / 64.0 } else { f64::NEG_INFINITY };
+    V::constant(least).lt(area)
+}
 
 /// Defect and area, fan by fan.
 #[derive(Clone, Copy)]
@@ -64,7 +71,8 @@ impl RingEstimator for AngleDefect {
     ) {
         sums.defect = sums.defect + defect(ring);
         for index in 0..ring.corner_count() {
-            sums.area = sums.area + ring.corner(index).mixed_area();
+            let corner = ring.corner(index);
+            sums.area = sums.area + corner.mixed_area() + corner.doubt();
         }
     }
 
@@ -78,6 +86,7 @@ impl RingEstimator for AngleDefect {
             gaussian: V::select(there, gaussian, V::zero()),
             area: sums.area,
             integrated_gaussian: sums.defect,
+            usable: large_enough(sums.area),
             fallback: V::select(there, V::one(), V::zero()).lt(V::one()),
             ..Local::new(frame.normal)
         }

@@ -42,7 +42,8 @@ fn add_triangle<V: Vector>(
     let (turn1, turn2) = (u1 - u0, u2 - u0);
     measure.area = measure.area + mean.dot(a.cross(b)) * half;
     measure.mean = measure.mean + mean.dot(turn1.cross(b) - turn2.cross(a)) * half * V::constant(0.5);
-    measure.gaussian = measure.gaussian + u0.dot(u1.cross(u2)) * half;
+    // u₀·(u₁ × u₂), from differences that have not lost digits.
+    measure.gaussian = measure.gaussian + u0.dot(turn1.cross(turn2)) * half;
     measure.add_product(b.cross(mean), turn1, half);
     measure.add_product(a.cross(mean), turn2, -half);
 }

@@ -13,11 +13,11 @@
 
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::{Frame, Operator};
-use super::ring::{Curvatures, RingEstimator, own_normals};
+use super::ring::{RingEstimator, own_normals};
 use crate::error::{Error, reserved};
 use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
-use crate::simd::{MAX_LANES, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
+use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Neighbourhood, Topology, closure, status};
 use crate::view::{Output, Points, zeroed};
 use std::sync::{Mutex, PoisonError};
@@ -92,7 +92,17 @@ impl<V: Vector> Measure<V> {
 }
 
 /// A [`MeasureEstimator`] over the vertex's own cell.
-pub(crate) struct OneRing<E>(std::marker::PhantomData<E>);
+pub(crate) struct OneRing<E>(std::marker::PhantomData<fn(E)>);
+
+/// A cell smaller than this, in units in which its ring is about 1 across, is not for single precision to judge.
+const SMALL: f64 = 1.0 / 64.0;
+
+impl<E> OneRing<E> {
+    /// The estimator.
+    pub fn new() -> Self {
+        OneRing(std::marker::PhantomData)
+    }
+}
 
 impl<E: MeasureEstimator> RingEstimator for OneRing<E> {
     const NEIGHBOUR_NORMALS: bool = E::NEIGHBOUR_NORMALS;
@@ -114,7 +124,11 @@ impl<E: MeasureEstimator> RingEstimator for OneRing<E> {
     }
     #[inline(always)]
     fn finish<V: Vector>(&self, sums: &Measure<V>, frame: &Frame<V>) -> Local<V> {
-        E::finish(sums, frame)
+        let found = E::finish(sums, frame);
+        if !V::Scalar::SINGLE {
+            return found;
+        }
+        Local { usable: found.usable.and(V::constant(SMALL).lt(sums.area)), ..found }
     }
 }
 
@@ -144,8 +158,8 @@ impl<E: MeasureEstimator> Quantity for Cells<'_, E> {
     const SINGLE: bool = false;
     const CENTROIDS: bool = E::NEIGHBOUR_NORMALS;
 
-    fn neighbour_normals(&self) -> Option<&[[f64; 3]]> {
-        E::NEIGHBOUR_NORMALS.then_some(self.normals)
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
+        E::NEIGHBOUR_NORMALS.then_some(NormalRows::Double(self.normals))
     }
 
     #[inline(always)]
@@ -188,7 +202,7 @@ impl<E: MeasureEstimator> Quantity for Cells<'_, E> {
     }
 }
 
-/// Computes `E` over `region` around every vertex that `run` asks for; `listed` are the vertices whose cells that takes,
+/// Computes `E` over `region`, more than one ring, around every vertex that `run` asks for; `listed` are the vertices whose cells that takes,
 /// `None` for all.
 pub(crate) fn over_region<E: MeasureEstimator>(
     topology: &Topology,
@@ -199,11 +213,6 @@ pub(crate) fn over_region<E: MeasureEstimator>(
     region: Region,
     listed: Option<&[u32]>,
 ) -> Result<(), Error> {
-    if let Region::Rings(1) = region {
-        let estimator = OneRing::<E>(std::marker::PhantomData);
-        let quantity = Curvatures { outputs, flags: topology.flags(), normals, estimator, more: 0 };
-        return sweep(topology, points, &mut run, true, &quantity);
-    }
     let mut cells: Vec<Cell> = zeroed(topology.vertex_count())?;
     let estimator = std::marker::PhantomData;
     let quantity = Cells::<E> { cells: cells.as_mut_slice().into(), normals, estimator };
@@ -244,7 +253,7 @@ pub(crate) fn over_region<E: MeasureEstimator>(
                         more: 0,
                         fallbacks,
                     };
-                    outputs.write(&block, &found.rows());
+                    outputs.write(&block, &found.rows(outputs.taken()));
                 } else {
                     outputs.write_none(vertex, normals[vertex], flags[vertex] | status::DEGENERATE);
                 }

@@ -15,11 +15,11 @@
 //! a smooth surface. Degenerate rule: faces without area add nothing; a vertex without area has no result.
 //! Cost: an angle polynomial, three roots and four divisions a corner.
 
-use super::angle_defect::defect;
+use super::angle_defect::{defect, large_enough};
 use super::outputs::Local;
 use super::principal::Frame;
 use super::ring::RingEstimator;
-use crate::simd::{Vector, Vector3};
+use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces, Scratch};
 
 /// Meyer et al. 2003.
@@ -55,7 +55,7 @@ impl RingEstimator for Meyer {
             let corner = ring.corner(index);
             let normal = corner.direction() * corner.unit();
             sums.gradient = sums.gradient + (corner.a - corner.b).cross(normal) * V::constant(0.5);
-            sums.area = sums.area + corner.mixed_area();
+            sums.area = sums.area + corner.mixed_area() + corner.doubt();
         }
     }
 
@@ -70,7 +70,7 @@ impl RingEstimator for Meyer {
             area: sums.area,
             integrated_mean,
             integrated_gaussian: sums.defect,
-            usable: V::zero().lt(inverse),
+            usable: V::zero().lt(inverse).and(large_enough(sums.area)),
             ..Local::of_mean_and_gaussian(frame.normal, integrated_mean * inverse, sums.defect * inverse)
         }
     }

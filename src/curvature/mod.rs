@@ -10,6 +10,7 @@ mod jet;
 mod measure;
 mod meyer;
 mod normal_cycle;
+mod one_ring;
 mod outputs;
 mod patch;
 mod polyline;

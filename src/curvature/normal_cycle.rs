@@ -34,7 +34,7 @@ impl MeasureEstimator for NormalCycle {
         for index in 0..corners {
             let corner = ring.corner(index);
             normals[index + 1] = corner.direction() * corner.unit();
-            measure.area = measure.area + corner.area_share();
+            measure.area = measure.area + corner.area_share() + corner.doubt();
         }
         normals[0] = normals[corners];
         // An end of an open fan has a face on one side only.

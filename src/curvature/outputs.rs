@@ -5,7 +5,6 @@ use crate::error::Error;
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3, atan2_and_reciprocal};
 use crate::topology::status;
 use crate::view::{Output, ScalarOutput, StatusOutput};
-use glam::DVec3;
 
 /// Where the results of [`curvatures`](super::curvatures) go; all are optional, and each has an element for every vertex.
 ///
@@ -281,17 +280,65 @@ impl<V: Vector> Local<V> {
 
 /// What every lane of a [`Local`] found, in rows of numbers: so that what writes results is compiled once and not for every
 /// estimator and vector width.
-pub(crate) struct Rows([[f64; LANES]; ROWS]);
+pub(crate) struct Rows([[f64; MAX_LANES]; ROWS]);
 
 const ROWS: usize = 19;
 
-/// The most lanes of `f64`.
-const LANES: usize = 8;
+/// The [`Rows`] that outputs take something from, a bit each.
+#[derive(Clone, Copy)]
+pub(crate) struct Taken(u32);
+
+impl CurvatureOutputs<'_> {
+    /// The rows that are not asked for in vain.
+    pub(crate) fn taken(&self) -> Taken {
+        const NORMAL: u32 = 0b111 << 9;
+        const DIRECTION: u32 = 0b111 << 12;
+        const MEAN_NORMAL: u32 = 0b111 << 15;
+        let asked = [
+            (self.k1.is_some(), 1),
+            (self.k2.is_some(), 1 << 1),
+            (self.mean.is_some(), 1 << 2),
+            (self.gaussian.is_some(), 1 << 3),
+            (self.area.is_some(), 1 << 4),
+            (self.integrated_mean.is_some(), 1 << 5),
+            (self.integrated_gaussian.is_some(), 1 << 6),
+            (self.residual.is_some(), 1 << 7),
+            (self.condition.is_some(), 1 << 8),
+            (self.normal.is_some(), NORMAL),
+            (self.direction1.is_some(), DIRECTION),
+            (self.direction2.is_some(), NORMAL | DIRECTION),
+            (self.mean_normal.is_some(), MEAN_NORMAL),
+            (self.degrees_of_freedom.is_some(), 1 << 18),
+            (self.shape_index.is_some() || self.curvedness.is_some(), 0b11),
+        ];
+        Taken(asked.iter().filter(|(asked, _)| *asked).fold(0, |all, (_, rows)| all | rows))
+    }
+
+    /// Whether an output is in double precision.
+    pub(crate) fn any_double(&self) -> bool {
+        let scalars = [
+            &self.k1,
+            &self.k2,
+            &self.mean,
+            &self.gaussian,
+            &self.area,
+            &self.integrated_mean,
+            &self.integrated_gaussian,
+            &self.shape_index,
+            &self.curvedness,
+            &self.residual,
+            &self.condition,
+            &self.degrees_of_freedom,
+        ];
+        let vectors = [&self.direction1, &self.direction2, &self.mean_normal, &self.normal];
+        scalars.into_iter().flatten().any(Output::is_double) || vectors.into_iter().flatten().any(Output::is_double)
+    }
+}
 
 impl<V: Vector> Local<V> {
-    /// The lanes as numbers.
+    /// The lanes of the rows that are taken as numbers, the others zero.
     #[inline(always)]
-    pub fn rows(&self) -> Rows {
+    pub fn rows(&self, taken: Taken) -> Rows {
         let (normal, direction, mean) = (self.normal, self.direction1, self.mean_normal);
         let rows: [V; ROWS] = [
             self.k1,
@@ -314,10 +361,13 @@ impl<V: Vector> Local<V> {
             mean.z,
             self.freedom,
         ];
-        let mut numbers = [[0.0; LANES]; ROWS];
-        for (numbers, row) in numbers.iter_mut().zip(rows) {
-            for (number, lane) in numbers.iter_mut().zip(row.to_lanes()).take(V::LANES) {
-                *number = lane.into();
+        let mut numbers = [[0.0; MAX_LANES]; ROWS];
+        for index in 0..ROWS {
+            if taken.0 & 1 << index != 0 {
+                let lanes = rows[index].to_lanes();
+                for lane in 0..V::LANES {
+                    numbers[index][lane] = lanes[lane].into();
+                }
             }
         }
         Rows(numbers)
@@ -352,39 +402,46 @@ impl CurvatureOutputs<'_> {
     /// Writes a block.
     #[inline(never)]
     pub(crate) fn write(&self, block: &Block<'_>, rows: &Rows) {
+        let scales = &block.scales;
         let [k1, k2, mean, gaussian, area, integrated_mean, integrated_gaussian, residual, condition, ..] = &rows.0;
-        let vector = |first: usize, lane: usize| [0, 1, 2].map(|axis| rows.0[first + axis][lane]);
         macro_rules! write {
-            ($($output:ident, |$lane:ident, $scale:ident| $value:expr;)*) => {$(
+            ($($output:ident, |$lane:ident| [$($value:expr),*];)*) => {$(
                 if let Some(output) = &self.$output {
-                    for ($lane, &vertex) in block.vertices.iter().enumerate() {
-                        let $scale = block.scales[$lane];
-                        if block.lanes & 1 << $lane != 0 {
-                            output.write(vertex as usize, $value);
+                    let mut values = [$({ let _ = stringify!($value); [0.0; MAX_LANES] }),*];
+                    for $lane in 0..block.vertices.len().min(MAX_LANES) {
+                        let element = [$($value),*];
+                        for axis in 0..element.len() {
+                            values[axis][$lane] = element[axis];
                         }
                     }
+                    output.write_block(block.vertices, block.lanes, &values);
                 }
             )*};
         }
+        let [n, d, m] = [9, 12, 15].map(|first| [&rows.0[first], &rows.0[first + 1], &rows.0[first + 2]]);
         write! {
-            k1, |lane, scale| [k1[lane] * scale];
-            k2, |lane, scale| [k2[lane] * scale];
-            direction1, |lane, _scale| vector(12, lane);
-            direction2, |lane, _scale| DVec3::from(vector(9, lane)).cross(vector(12, lane).into()).to_array();
-            mean, |lane, scale| [mean[lane] * scale];
-            gaussian, |lane, scale| [gaussian[lane] * scale * scale];
-            mean_normal, |lane, scale| vector(15, lane).map(|x| x * scale);
-            area, |lane, scale| [area[lane] / scale / scale];
-            integrated_mean, |lane, scale| [integrated_mean[lane] / scale];
-            integrated_gaussian, |lane, _scale| [integrated_gaussian[lane]];
-            shape_index, |lane, _scale| [shape_index(k1[lane], k2[lane])];
-            curvedness, |lane, scale| [((k1[lane] * k1[lane] + k2[lane] * k2[lane]) * 0.5).sqrt() * scale];
-            residual, |lane, scale| [
-                if block.residual_power > 0 { residual[lane] / scale } else { residual[lane] * scale }
+            k1, |lane| [k1[lane] * scales[lane]];
+            k2, |lane| [k2[lane] * scales[lane]];
+            direction1, |lane| [d[0][lane], d[1][lane], d[2][lane]];
+            direction2, |lane| [
+                n[1][lane] * d[2][lane] - d[1][lane] * n[2][lane],
+                n[2][lane] * d[0][lane] - d[2][lane] * n[0][lane],
+                n[0][lane] * d[1][lane] - d[0][lane] * n[1][lane]
             ];
-            condition, |lane, _scale| [condition[lane]];
-            degrees_of_freedom, |lane, _scale| [rows.0[18][lane]];
-            normal, |lane, _scale| vector(9, lane);
+            mean, |lane| [mean[lane] * scales[lane]];
+            gaussian, |lane| [gaussian[lane] * scales[lane] * scales[lane]];
+            mean_normal, |lane| [m[0][lane] * scales[lane], m[1][lane] * scales[lane], m[2][lane] * scales[lane]];
+            area, |lane| [area[lane] / scales[lane] / scales[lane]];
+            integrated_mean, |lane| [integrated_mean[lane] / scales[lane]];
+            integrated_gaussian, |lane| [integrated_gaussian[lane]];
+            shape_index, |lane| [shape_index(k1[lane], k2[lane])];
+            curvedness, |lane| [((k1[lane] * k1[lane] + k2[lane] * k2[lane]) * 0.5).sqrt() * scales[lane]];
+            residual, |lane| [
+                if block.residual_power > 0 { residual[lane] / scales[lane] } else { residual[lane] * scales[lane] }
+            ];
+            condition, |lane| [condition[lane]];
+            degrees_of_freedom, |lane| [rows.0[18][lane]];
+            normal, |lane| [n[0][lane], n[1][lane], n[2][lane]];
         }
         if let Some(output) = &self.status {
             for (lane, &vertex) in block.vertices.iter().enumerate() {

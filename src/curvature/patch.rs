@@ -54,7 +54,7 @@ impl<E> PatchCurvatures<'_, E> {
         let (flags, fallbacks) = (self.flags, found.fallbacks());
         let scales = scale.to_lanes();
         let block = Block { vertices, lanes, scales, residual_power: 1, flags, more, fallbacks };
-        self.outputs.write(&block, &found.rows());
+        self.outputs.write(&block, &found.rows(self.outputs.taken()));
     }
 }
 

@@ -3,7 +3,7 @@
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::Frame;
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans};
+use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans};
 use crate::topology::status;
 
 /// A curvature estimator over one-rings. What it adds up goes over all fans of a vertex.
@@ -14,6 +14,9 @@ pub(crate) trait RingEstimator: Sync {
     const FLAT_ANGLES: bool = false;
     /// Whether a vertex without normal has no result.
     const NORMAL: bool = true;
+    /// Whether it is ever computed in single precision. Then [`RingEstimator::finish`] calls results unusable that rounding may
+    /// have spoilt, by more than [`DOUBT`] says; they are computed again in double precision.
+    const SINGLE: bool = true;
     /// The power of length in which residuals are.
     const RESIDUAL_POWER: i32 = -1;
     /// What is added up.
@@ -38,21 +41,47 @@ pub(crate) struct Curvatures<'a, E> {
     pub outputs: &'a CurvatureOutputs<'a>,
     /// The topology's.
     pub flags: &'a [u8],
-    /// Unit normals, zero where there is none.
-    pub normals: &'a [[f64; 3]],
+    pub normals: OwnNormals<'a>,
     pub estimator: E,
     /// Status bits for every vertex.
     pub more: u8,
+}
+
+/// Where unit normals come from; zero where there is none.
+#[derive(Clone, Copy)]
+pub(crate) enum OwnNormals<'a> {
+    /// The normals of all vertices.
+    Rows(NormalRows<'a>),
+    /// What has been computed from the same ring just before.
+    Ring,
+    /// No vertex has one.
+    None,
+}
+
+impl OwnNormals<'_> {
+    /// Those of a block's vertices.
+    #[inline(always)]
+    fn load<V: Vector>(&self, vertices: &[u32], scratch: &Scratch<'_, V>) -> Vector3<V> {
+        match *self {
+            OwnNormals::None => Vector3::zero(),
+            OwnNormals::Ring => *scratch.normal,
+            OwnNormals::Rows(NormalRows::Double(rows)) => own_normals(rows, vertices),
+            OwnNormals::Rows(NormalRows::Single(rows)) => load_vectors(vertices, |vertex| {
+                [rows[vertex][0].into(), rows[vertex][1].into(), rows[vertex][2].into()]
+            }),
+        }
+    }
 }
 
 /// A vector for each of a block's vertices; lanes beyond them repeat the first.
 #[inline(always)]
 pub(crate) fn load_vectors<V: Vector>(vertices: &[u32], vector: impl Fn(usize) -> [f64; 3]) -> Vector3<V> {
     let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
-    let [xs, ys, zs] = &mut lanes;
-    for (lane, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate().take(V::LANES) {
+    for lane in 0..V::LANES {
         let vector = vector(*vertices.get(lane).unwrap_or(&vertices[0]) as usize);
-        [*x, *y, *z] = vector.map(V::Scalar::from_f64);
+        for axis in 0..3 {
+            lanes[axis][lane] = V::Scalar::from_f64(vector[axis]);
+        }
     }
     Vector3::from_lanes(&lanes)
 }
@@ -72,26 +101,33 @@ impl<E: RingEstimator> Curvatures<'_, E> {
 
     #[inline(always)]
     fn write<V: Vector>(&self, vertices: &[u32], lanes: u32, found: &Local<V>, scale: V) {
+        let (mut scales, scale) = ([0.0; MAX_LANES], scale.to_lanes());
+        for lane in 0..V::LANES {
+            scales[lane] = scale[lane].into();
+        }
         let block = Block {
             vertices,
             lanes,
-            scales: scale.to_lanes().map(Into::into),
+            scales,
             residual_power: E::RESIDUAL_POWER,
             flags: self.flags,
             more: self.more,
             fallbacks: found.fallbacks(),
         };
-        self.outputs.write(&block, &found.rows());
+        self.outputs.write(&block, &found.rows(self.outputs.taken()));
     }
 }
 
 impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
-    const SINGLE: bool = false;
+    const SINGLE: bool = E::SINGLE;
     const CENTROIDS: bool = E::NEIGHBOUR_NORMALS;
     const FLAT_ANGLES: bool = E::FLAT_ANGLES;
 
-    fn neighbour_normals(&self) -> Option<&[[f64; 3]]> {
-        E::NEIGHBOUR_NORMALS.then_some(self.normals)
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
+        match self.normals {
+            OwnNormals::Rows(rows) if E::NEIGHBOUR_NORMALS => Some(rows),
+            _ => None,
+        }
     }
 
     #[inline(always)]
@@ -102,7 +138,7 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         scale: V,
         scratch: &mut Scratch<'_, V>,
     ) -> u32 {
-        let frame = Frame::new(own_normals::<V>(self.normals, vertices));
+        let frame = Frame::new(self.normals.load(vertices, scratch));
         let mut sums = E::start();
         self.estimator.add(ring, &frame, scratch, &mut sums);
         let found = self.estimator.finish(&sums, &frame);
@@ -121,7 +157,7 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         scratch: &mut Scratch<'_, f64>,
     ) {
         let vertices = [vertex as u32];
-        let frame = Frame::new(own_normals::<f64>(self.normals, &vertices));
+        let frame = Frame::new(self.normals.load::<f64>(&vertices, scratch));
         let mut sums = E::start();
         for ring in fans.rings() {
             self.estimator.add(&ring, &frame, scratch, &mut sums);
@@ -130,11 +166,8 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
         if found.trusted() & Self::normals_there(frame.normal) & 1 != 0 {
             self.write(&vertices, 1, &found, scale);
         } else {
-            self.outputs.write_none(
-                vertex,
-                self.normals[vertex],
-                self.flags[vertex] | self.more | status::DEGENERATE,
-            );
+            let Vector3 { x, y, z } = frame.normal;
+            self.outputs.write_none(vertex, [x, y, z], self.flags[vertex] | self.more | status::DEGENERATE);
         }
     }
 

@@ -15,7 +15,7 @@
 use super::outputs::Local;
 use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
-use crate::simd::{Mask, Vector, Vector3};
+use crate::simd::{Mask, Real, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces, Scratch};
 
 /// A face narrower than this part of its length, squared, says nothing across.
@@ -23,6 +23,10 @@ const NARROW: f64 = 1e-12;
 
 /// The cosine between face and vertex normal below which the rotation between them is arbitrary.
 const OPPOSITE: f64 = -1.0 + 1e-6;
+
+/// As [`NARROW`] and [`OPPOSITE`], for what is left to double precision.
+const DOUBTFULLY_NARROW: f64 = 1.0 / 64.0;
+const DOUBTFULLY_OPPOSITE: f64 = 0.0;
 
 /// Rusinkiewicz 2004.
 pub(crate) struct Rusinkiewicz;
@@ -69,7 +73,8 @@ impl<V: Vector> System<V> {
     #[inline(always)]
     fn solve(&self) -> (Operator<V>, V::Mask) {
         let moments = Operator { a: self.xx, b: self.xy, d: self.yy }.principal();
-        let usable = (moments.k1 * V::constant(NARROW)).lt(moments.k2);
+        let narrow = if V::Scalar::SINGLE { DOUBTFULLY_NARROW } else { NARROW };
+        let usable = (moments.k1 * V::constant(narrow)).lt(moments.k2);
         let (c, s) = moments.direction;
         let (long, wide) = (V::select(usable, moments.k1, V::one()), V::select(usable, moments.k2, V::one()));
         let [r0, r1, r2] = self.right;
@@ -130,8 +135,11 @@ impl RingEstimator for Rusinkiewicz {
             let (ax, ay) = (operator.a * xx + operator.b * xy, operator.b * xx + operator.d * xy);
             let (dx, dy) = (operator.a * yx + operator.b * yy, operator.b * yx + operator.d * yy);
             let known = V::zero().lt(plane.normal.squared());
-            let counted = usable.and(known).and(V::constant(OPPOSITE).lt(cosine));
-            let weight = V::select(counted, corner.mixed_area(), V::zero());
+            let opposite = if V::Scalar::SINGLE { DOUBTFULLY_OPPOSITE } else { OPPOSITE };
+            let counted = usable.and(known).and(V::constant(opposite).lt(cosine));
+            // What single precision would leave out, double precision judges.
+            let left_out = if V::Scalar::SINGLE { V::constant(f64::NAN) } else { V::zero() };
+            let weight = V::select(counted, corner.mixed_area(), left_out);
             sums.weight = sums.weight + weight;
             sums.a = sums.a + (xx * ax + xy * ay) * weight;
             sums.b = sums.b + (yx * ax + yy * ay) * weight;

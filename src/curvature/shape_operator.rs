@@ -20,12 +20,15 @@ use super::outputs::Local;
 use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
 use super::section::{self, EdgeCurvature};
-use crate::simd::Vector;
+use crate::simd::{Mask, Real, Vector};
 use crate::sweep::{Ring, RingFaces, Scratch};
 
 /// A part of `(p, q)` that the edges tell apart by less than this mean square is not determined: what they say of it is the
 /// error of the normal, magnified more than thirtyfold.
 const UNDETERMINED: f64 = 0.001;
+
+/// As [`UNDETERMINED`], for what is left to double precision.
+const DOUBTFUL: f64 = 0.1;
 
 /// Least squares over sections.
 pub(crate) struct LeastSquares {
@@ -127,9 +130,10 @@ impl RingEstimator for LeastSquares {
         let height = mean - cos * p - sin * q;
         // What is left of the variance of the sections once the fit has taken its part.
         let variance = sums.curvature_squared * inverse - mean * mean - p * right.0 - q * right.1;
+        let doubtful = if V::Scalar::SINGLE { DOUBTFUL } else { f64::NEG_INFINITY };
         Local {
             residual: variance.max(V::zero()).sqrt(),
-            usable: V::zero().lt(sums.count),
+            usable: V::zero().lt(sums.count).and(V::constant(doubtful).lt(axes.k2)),
             fallback: axes.k2.lt(least),
             ..Local::of_operator(frame, &Operator::of_harmonics(height, p, q))
         }

@@ -14,6 +14,7 @@ use crate::sweep::{Ring, RingFaces, Scratch};
 pub(crate) struct TiltedSections;
 
 impl RingEstimator for TiltedSections {
+    const SINGLE: bool = false;
     type Sums<V: Vector> = TiltedSums<V>;
 
     #[inline(always)]

@@ -1,29 +1,25 @@
 //! Curvatures at the vertices of a mesh: checks, vertex normals, and the method asked for.
 
 use super::adaptive_jet::adaptive_curvatures;
-use super::angle_defect::AngleDefect;
 use super::corrected_measure::CorrectedMeasure;
 use super::goldfeather::Goldfeather;
 use super::measure::{Region, cells_needed, over_region};
-use super::meyer::Meyer;
 use super::normal_cycle::NormalCycle;
+use super::one_ring::weight_on_the_way;
+use super::one_ring::{Way, is_single, looks_at_one_ring, over_one_ring};
 use super::patch::PatchCurvatures;
 use super::quadric::Quadric;
-use super::ring::Curvatures;
-use super::rusinkiewicz::Rusinkiewicz;
-use super::shape_operator::LeastSquares;
-use super::taubin::Taubin;
-use super::tilted_sections::TiltedSections;
-use super::watanabe::Watanabe;
+use super::ring::OwnNormals;
 use super::{CurvatureOutputs, Method, Section};
 use crate::error::Error;
 use crate::fit::{AdaptiveModel, JetFit, JetOptions, MOST_DEGREE};
 use crate::normals::{NormalOutputs, Weight, reference_normals, vertex_normals};
-use crate::parallel::Run;
+use crate::parallel::{Run, fill};
 use crate::simd::Real;
-use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS, sweep, sweep_patches};
+use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS, NormalRows, sweep_patches};
 use crate::topology::{Topology, closure};
-use crate::view::{Points, zeroed};
+use crate::view::{Output, Points, Zero, zeroed};
+use glam::DVec3;
 
 /// The vertex normals that a method takes.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +57,10 @@ pub struct CurvatureOptions<'a> {
 
 /// Computes the curvatures of all vertices, or of those in [`Run::vertices`].
 ///
-/// Everything is computed in double precision. Results are pointwise unless their name says integrated.
+/// Methods of one ring are computed in single precision where positions, given normals and outputs all are `f32` and faces are
+/// triangles, and then in double precision wherever that could be off by more than about 2e-6 by the length of the shortest edge
+/// at the vertex, which is what the rounding of the positions to single precision costs as well; all else in double precision.
+/// Results are pointwise unless their name says integrated.
 ///
 /// # Errors
 /// [`Error::Size`] where counts do not fit; [`Error::NotApplicable`] for an output or an option that the method does not
@@ -84,6 +83,9 @@ pub fn curvatures(
     if options.method == Method::AdaptiveJet {
         return adaptive_curvatures(topology, points, options, run, outputs);
     }
+    if looks_at_one_ring(options.method, region) {
+        return with_own_normals(topology, points, options, run, outputs);
+    }
     // The vertices whose cells are added up; None for all, or where there are no cells.
     let cells = match (run.vertices, options.method) {
         (Some(vertices), Method::NormalCycle | Method::CorrectedMeasure) => {
@@ -97,16 +99,49 @@ pub fn curvatures(
     };
     let normals = run.part_for(list.as_deref(), 0.0, NORMAL_SHARE, |run| {
         match (options.method, options.normals) {
-            (Method::AngleDefect, _) if outputs.normal.is_none() => zeroed(topology.vertex_count()),
             // A jet only asks which side is which.
             (Method::Jet, VertexNormals::Computed(_)) => reference_normals(topology, points, run),
-            (Method::TiltedSections, VertexNormals::Computed(_)) => {
-                normals_of(topology, points, VertexNormals::Computed(Weight::Max), run)
-            }
             (_, asked) => normals_of(topology, points, asked, run),
         }
     })?;
-    run.part(NORMAL_SHARE, 1.0, |run| by_method(topology, points, options, run, &normals, outputs, cells.as_deref()))
+    run.part(NORMAL_SHARE, 1.0, |run| over_rings(topology, points, options, run, &normals, outputs, cells.as_deref()))
+}
+
+/// Computes a method of one ring, with its normals.
+fn with_own_normals(
+    topology: &Topology,
+    points: &Points<'_>,
+    options: &CurvatureOptions<'_>,
+    mut run: Run<'_>,
+    outputs: &CurvatureOutputs<'_>,
+) -> Result<(), Error> {
+    let double = !is_single(points, options, outputs);
+    if options.method == Method::AngleDefect && outputs.normal.is_none() {
+        let normals = Ok(OwnNormals::None);
+        return over_one_ring(options, outputs, Way { topology, points, run: &mut run, double, normals });
+    }
+    if let Some(weight) = weight_on_the_way(options) {
+        let normals = Err(weight);
+        return over_one_ring(options, outputs, Way { topology, points, run: &mut run, double, normals });
+    }
+    let list = match run.vertices {
+        Some(list) => Some(closure(topology, list, normal_rings(options))?),
+        None => None,
+    };
+    let (single_rows, double_rows): (Vec<[f32; 3]>, Vec<[f64; 3]>);
+    let rows = if double {
+        double_rows = run
+            .part_for(list.as_deref(), 0.0, NORMAL_SHARE, |run| normals_of(topology, points, options.normals, run))?;
+        NormalRows::Double(&double_rows)
+    } else {
+        single_rows = run
+            .part_for(list.as_deref(), 0.0, NORMAL_SHARE, |run| normals_of(topology, points, options.normals, run))?;
+        NormalRows::Single(&single_rows)
+    };
+    run.part(NORMAL_SHARE, 1.0, |mut run| {
+        let normals = Ok(OwnNormals::Rows(rows));
+        over_one_ring(options, outputs, Way { topology, points, run: &mut run, double, normals })
+    })
 }
 
 /// The part of the work that goes into the vertex normals, for progress.
@@ -121,7 +156,8 @@ fn normal_rings(options: &CurvatureOptions<'_>) -> usize {
     }
 }
 
-fn by_method(
+/// Computes a method of more than one ring.
+fn over_rings(
     topology: &Topology,
     points: &Points<'_>,
     options: &CurvatureOptions<'_>,
@@ -131,18 +167,6 @@ fn by_method(
     cells: Option<&[u32]>,
 ) -> Result<(), Error> {
     let flags = topology.flags();
-    let section = options.section;
-    macro_rules! ring {
-        ($estimator:expr) => {
-            sweep(
-                topology,
-                points,
-                &mut run,
-                true,
-                &Curvatures { outputs, flags, normals, estimator: $estimator, more: 0 },
-            )
-        };
-    }
     macro_rules! patch {
         ($estimator:expr) => {{
             let quantity = PatchCurvatures { outputs, flags, normals, estimator: $estimator };
@@ -153,22 +177,21 @@ fn by_method(
     let condition = outputs.condition.is_some();
     let rings = options.rings.max(1);
     match options.method {
-        // Has returned above.
-        Method::AdaptiveJet => unreachable!("adaptive jets have a driver of their own"),
         Method::Jet => patch!(JetFit::new(jet_options(options)?)?),
         Method::Quadric => patch!(Quadric { rings, condition }),
         Method::Goldfeather => patch!(Goldfeather { rings, condition }),
-        Method::TiltedSections => ring!(TiltedSections),
-        Method::LeastSquares => ring!(LeastSquares { section }),
-        Method::Taubin => ring!(Taubin { section }),
-        Method::Watanabe => ring!(Watanabe { section }),
-        Method::Meyer => ring!(Meyer),
-        Method::AngleDefect => ring!(AngleDefect),
-        Method::Rusinkiewicz => ring!(Rusinkiewicz),
         Method::NormalCycle => over_region::<NormalCycle>(topology, points, run, normals, outputs, region, cells),
         Method::CorrectedMeasure => {
             over_region::<CorrectedMeasure>(topology, points, run, normals, outputs, region, cells)
         }
+        Method::AdaptiveJet
+        | Method::TiltedSections
+        | Method::LeastSquares
+        | Method::Taubin
+        | Method::Watanabe
+        | Method::Meyer
+        | Method::AngleDefect
+        | Method::Rusinkiewicz => unreachable!("these have gone another way"),
     }
 }
 
@@ -240,13 +263,16 @@ pub(super) fn unit_normals(
 }
 
 /// Unit normals of the vertices that `run` asks for; zero where there is none.
-fn normals_of(
+fn normals_of<S: Real + Zero>(
     topology: &Topology,
     points: &Points<'_>,
     asked: VertexNormals<'_>,
     run: Run<'_>,
-) -> Result<Vec<[f64; 3]>, Error> {
-    let mut normals: Vec<[f64; 3]> = zeroed(topology.vertex_count())?;
+) -> Result<Vec<[S; 3]>, Error>
+where
+    for<'a> Output<'a>: From<&'a mut [[S; 3]]>,
+{
+    let mut normals: Vec<[S; 3]> = zeroed(topology.vertex_count())?;
     match asked {
         VertexNormals::Computed(weight) => {
             let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
@@ -257,23 +283,39 @@ fn normals_of(
                 let (found, expected) = (given.len() as u64, topology.vertex_count() as u64);
                 return Err(Error::Size { what: "normals.count", found, expected });
             }
-            let mut take = |vertex: usize| {
-                let normal = given.get(vertex);
-                if !normal.is_finite() {
-                    return Err(Error::NonFiniteNormal { vertex: vertex as u64 });
-                }
-                // Twice, since the largest factor does not lift the smallest numbers all the way.
-                let normal = normal * normal.abs().max_element().inverse_power_of_two();
-                let normal = normal * normal.abs().max_element().inverse_power_of_two();
-                let length = normal.length();
-                normals[vertex] = if length > 0.0 { (normal / length).to_array() } else { [0.0; 3] };
-                Ok(())
-            };
+            let normal = |vertex: usize| unit(given.get(vertex)).to_array().map(S::from_f64);
             match run.vertices {
-                Some(list) => list.iter().try_for_each(|&vertex| take(vertex as usize))?,
-                None => (0..topology.vertex_count()).try_for_each(take)?,
+                Some(list) => {
+                    for &vertex in list {
+                        if !given.get(vertex as usize).is_finite() {
+                            return Err(Error::NonFiniteNormal { vertex: vertex as u64 });
+                        }
+                        normals[vertex as usize] = normal(vertex as usize);
+                    }
+                }
+                None => {
+                    given.check_finite().map_err(|error| match error {
+                        Error::NonFinitePosition { vertex } => Error::NonFiniteNormal { vertex },
+                        other => other,
+                    })?;
+                    fill(run.threads, &mut normals, normal);
+                }
             }
         }
     }
     Ok(normals)
+}
+
+/// A vector of any length at length 1; zero if it is zero.
+#[inline(always)]
+fn unit(vector: DVec3) -> DVec3 {
+    let squared = vector.length_squared();
+    if (1e-200..1e200).contains(&squared) {
+        return vector / squared.sqrt();
+    }
+    // Twice, since the largest factor does not lift the smallest numbers all the way.
+    let vector = vector * vector.abs().max_element().inverse_power_of_two();
+    let vector = vector * vector.abs().max_element().inverse_power_of_two();
+    let length = vector.length();
+    if length > 0.0 { vector / length } else { DVec3::ZERO }
 }

@@ -38,7 +38,7 @@ impl Estimator for Conformal {
         let corners = ring.corner_count();
         // Row `j + 1` is corner `j`. Rows 0 and `corners + 1` are the corners beyond the ends: the same ring's last and
         // first if it is closed, and otherwise none, which is a zero normal and a zero tangent.
-        let Scratch { vectors: normals, numbers: [tangents, denominators, spreads] } = scratch;
+        let Scratch { vectors: normals, numbers: [tangents, denominators, spreads], .. } = scratch;
         let normals = &mut normals[..corners + 2];
         let tangents = &mut tangents[..corners + 2];
         let denominators = &mut denominators[..corners + 2];

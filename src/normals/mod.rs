@@ -13,8 +13,8 @@ mod weights;
 pub use adaptive_jet::{AdaptiveOptions, learn_model};
 pub(crate) use adaptive_jet::{Sink, adaptive_jets};
 pub use face::{FaceOutputs, face_normals};
-pub(crate) use vertex::reference_normals;
 pub use vertex::{NormalOutputs, vertex_normals, vertex_normals_from_faces};
+pub(crate) use vertex::{is_one_ring, reference_normals, with_vertex_normals};
 
 use crate::fit::JetOptions;
 

@@ -15,7 +15,7 @@ use super::weights::{
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep, sweep_with_normals};
 use crate::topology::{Topology, status};
 use crate::view::{Faces, Output, Points, StatusOutput, zeroed};
 
@@ -104,6 +104,46 @@ pub fn vertex_normals(
     }
 }
 
+/// Whether a weight is a sum over one ring.
+pub(crate) fn is_one_ring(weight: Weight) -> bool {
+    !matches!(weight, Weight::Jet(_) | Weight::AdaptiveJet(_) | Weight::TiltedSections)
+}
+
+/// Computes a quantity that takes each vertex's normal, of a weight that is a sum over one ring, from the ring that the normal
+/// has just been computed from.
+///
+/// # Errors
+/// As [`vertex_normals`].
+pub(crate) fn with_vertex_normals<Q: Quantity>(
+    topology: &Topology,
+    points: &Points<'_>,
+    weight: Weight,
+    run: &mut Run<'_>,
+    double: bool,
+    quantity: &Q,
+) -> Result<(), Error> {
+    macro_rules! with {
+        ($estimator:ident) => {{
+            let (outputs, estimator) = (&NormalOutputs::default(), std::marker::PhantomData);
+            let normals = Normals::<$estimator> { outputs, flags: topology.flags(), estimator };
+            sweep_with_normals(topology, points, run, double, &normals, quantity)
+        }};
+    }
+    match weight {
+        Weight::Conformal => with!(Conformal),
+        Weight::Uniform => with!(Uniform),
+        Weight::Angle => with!(Angle),
+        Weight::Area => with!(Area),
+        Weight::Max => with!(Max),
+        Weight::CentroidArea => with!(CentroidArea),
+        Weight::Centroid => with!(Centroid),
+        Weight::InverseRootEdges => with!(InverseRootEdges),
+        Weight::Sine => with!(Sine),
+        Weight::AngleEdges => with!(AngleEdges),
+        Weight::Jet(_) | Weight::AdaptiveJet(_) | Weight::TiltedSections => unreachable!("no sum over one ring"),
+    }
+}
+
 /// The area-weighted normals of the vertices that `run` asks for, by vertex, and zeros elsewhere: what estimators on
 /// neighbourhoods tell the sides of a surface by.
 ///
@@ -132,13 +172,8 @@ pub fn vertex_normals_from_faces(
     run: Run<'_>,
     outputs: &NormalOutputs<'_>,
 ) -> Result<(), Error> {
-    vertex_normals(
-        &Topology::with_threads(faces, points.len(), run.threads, run.level)?,
-        points,
-        weight,
-        run,
-        outputs,
-    )
+    let topology = Topology::with_threads(faces, points.len(), run.threads, run.level)?;
+    vertex_normals(&topology, points, weight, run, outputs)
 }
 
 struct Normals<'a, E> {
@@ -162,6 +197,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
         let (trusted, squared) = sum.trusted();
         let normal = sum.vector.divided_by(squared.sqrt());
         let trusted = trusted.bits();
+        *scratch.normal = normal;
         if let Some(output) = &self.outputs.normal {
             let lanes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
             for (lane, &vertex) in vertices.iter().enumerate() {
@@ -199,6 +235,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
     ) {
         let found = with_fallback::<E, F>(fans, scale, scratch);
         let (normal, sum, fallback) = found.unwrap_or(([0.0; 3], [0.0; 3], status::DEGENERATE));
+        *scratch.normal = Vector3 { x: normal[0], y: normal[1], z: normal[2] };
         self.outputs.write(vertex, normal, sum, self.flags[vertex] | fallback);
     }
 

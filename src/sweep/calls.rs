@@ -2,8 +2,8 @@
 //! positions, and not again for every estimator. Only blocks and lone vertices know the estimator; a virtual call leads to
 //! each, which costs nothing beside what it does.
 
-use super::Quantity;
 use super::ring::{PolygonFaces, Ring, RingFaces, Scratch, Triangles, VertexFans};
+use super::{NormalRows, Quantity};
 use crate::simd::{Task, Vector, Width};
 
 /// What a vertex-by-vertex path calls.
@@ -59,6 +59,117 @@ pub(super) trait BlockCalls<W: Width>: AloneCalls {
         scale: &W::Double,
         scratch: &mut Scratch<'_, W::Double>,
     ) -> u32;
+}
+
+/// What a sweep computes, before the width is known.
+pub(super) trait Calls: Sync {
+    /// [`Quantity::CENTROIDS`]
+    const CENTROIDS: bool;
+    /// [`Quantity::FLAT_ANGLES`]
+    const FLAT_ANGLES: bool;
+    /// [`Quantity::neighbour_normals`]
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>>;
+    /// Hands the calls of a width to `then`.
+    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>));
+}
+
+impl<Q: Quantity> Calls for Q {
+    const CENTROIDS: bool = Q::CENTROIDS;
+    const FLAT_ANGLES: bool = Q::FLAT_ANGLES;
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
+        Quantity::neighbour_normals(self)
+    }
+    #[inline(always)]
+    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>)) {
+        then(self);
+    }
+}
+
+/// Two quantities of the same rings, the second of which takes the normal that the first leaves in [`Scratch::normal`].
+pub(super) struct Both<'a, A, B> {
+    pub first: &'a A,
+    pub second: &'a B,
+}
+
+impl<A: Quantity, B: Quantity> Calls for Both<'_, A, B> {
+    const CENTROIDS: bool = A::CENTROIDS || B::CENTROIDS;
+    const FLAT_ANGLES: bool = A::FLAT_ANGLES || B::FLAT_ANGLES;
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
+        None
+    }
+    #[inline(always)]
+    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>)) {
+        then(&BothCalls::<W> { first: self.first, second: self.second });
+    }
+}
+
+/// [`Both`] without their types.
+struct BothCalls<'a, W> {
+    first: &'a dyn BlockCalls<W>,
+    second: &'a dyn BlockCalls<W>,
+}
+
+impl<W: Width> AloneCalls for BothCalls<'_, W> {
+    fn centroids(&self) -> bool {
+        self.first.centroids() || self.second.centroids()
+    }
+    fn alone_triangles(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, Triangles>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        self.first.alone_triangles(vertex, fans, scale, scratch);
+        self.second.alone_triangles(vertex, fans, scale, scratch);
+    }
+    fn alone_polygons(
+        &self,
+        vertex: usize,
+        fans: &VertexFans<'_, PolygonFaces<'_, f64>>,
+        scale: f64,
+        scratch: &mut Scratch<'_, f64>,
+    ) {
+        self.first.alone_polygons(vertex, fans, scale, scratch);
+        self.second.alone_polygons(vertex, fans, scale, scratch);
+    }
+    fn isolated(&self, vertex: usize) {
+        self.first.isolated(vertex);
+        self.second.isolated(vertex);
+    }
+}
+
+impl<W: Width> BlockCalls<W> for BothCalls<'_, W> {
+    fn has_single(&self) -> bool {
+        self.first.has_single() && self.second.has_single()
+    }
+    fn single(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Single, Triangles>,
+        scale: &W::Single,
+        scratch: &mut Scratch<'_, W::Single>,
+    ) -> u32 {
+        self.first.single(vertices, ring, scale, scratch) | self.second.single(vertices, ring, scale, scratch)
+    }
+    fn triangles(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, Triangles>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32 {
+        self.first.triangles(vertices, ring, scale, scratch) | self.second.triangles(vertices, ring, scale, scratch)
+    }
+    fn polygons(
+        &self,
+        vertices: &[u32],
+        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
+        scale: &W::Double,
+        scratch: &mut Scratch<'_, W::Double>,
+    ) -> u32 {
+        self.first.polygons(vertices, ring, scale, scratch) | self.second.polygons(vertices, ring, scale, scratch)
+    }
 }
 
 impl<Q: Quantity> AloneCalls for Q {

@@ -5,6 +5,7 @@
 //! area, each triangle `(mean, pₖ, pₖ₊₁)` counted by its signed area along the normal, so it does not move when an
 //! edge is split. A polygon whose area vector cancels out has no normal. Cost: linear in the number of corners.
 
+use super::NormalRows;
 use super::ring::interior_angle;
 use crate::error::{Error, filled};
 use crate::parallel;
@@ -172,16 +173,15 @@ pub(crate) struct Asked<'a> {
     /// [`Frame::bend`]
     pub bends: bool,
     /// The normals of all vertices, for [`Frame::mean_normal`].
-    pub normals: Option<&'a [[f64; 3]]>,
+    pub normals: Option<NormalRows<'a>>,
 }
 
 /// The frame of the polygon with the given corners.
 fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], asked: Asked<'_>) -> Frame {
     let may_turn = corners.len() > 3;
     let share = 1.0 / corners.len().max(1) as f64;
-    let normal_at = |normals: &[[f64; 3]], &vertex: &u32| DVec3::from_array(normals[vertex as usize]);
     let mean_normal = asked.normals.map_or(DVec3::ZERO, |normals| {
-        corners.iter().map(|vertex| normal_at(normals, vertex)).sum::<DVec3>() * share
+        corners.iter().map(|&vertex| DVec3::from_array(normals.get(vertex as usize))).sum::<DVec3>() * share
     });
     let local = Local::new(points, corners);
     let area = local.as_ref().and_then(Local::twice_area);

@@ -30,7 +30,7 @@ use crate::parallel::{Claims, Run, for_each_chunk};
 use crate::simd::{Task, Vector, Vector3, Width, dispatch};
 use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
-use calls::{AloneCalls, BlockCalls};
+use calls::{AloneCalls, BlockCalls, Both, Calls};
 use frames::{Asked, Frames};
 use glam::DVec3;
 use ring::{Polygon, PolygonFaces, Triangles};
@@ -47,7 +47,7 @@ pub(crate) trait Quantity: Sync {
     const FLAT_ANGLES: bool = false;
 
     /// The normals of all vertices, where rings are to hold those of the neighbours.
-    fn neighbour_normals(&self) -> Option<&[[f64; 3]]> {
+    fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         None
     }
 
@@ -76,6 +76,26 @@ pub(crate) trait Quantity: Sync {
     fn isolated(&self, vertex: usize);
 }
 
+/// Normals of all vertices.
+#[derive(Clone, Copy)]
+pub(crate) enum NormalRows<'a> {
+    /// In single precision, where positions are.
+    Single(&'a [[f32; 3]]),
+    /// In double precision.
+    Double(&'a [[f64; 3]]),
+}
+
+impl NormalRows<'_> {
+    /// The normal of a vertex.
+    #[inline(always)]
+    pub fn get(&self, vertex: usize) -> [f64; 3] {
+        match self {
+            NormalRows::Single(rows) => rows[vertex].map(f64::from),
+            NormalRows::Double(rows) => rows[vertex],
+        }
+    }
+}
+
 /// Computes `quantity` at every vertex that `run` asks for. `double` asks for `f64` even where positions are `f32`.
 ///
 /// # Errors
@@ -87,10 +107,36 @@ pub(crate) fn sweep<Q: Quantity>(
     double: bool,
     quantity: &Q,
 ) -> Result<(), Error> {
+    sweep_calls(topology, points, run, double, quantity)
+}
+
+/// As [`sweep`], for a quantity that takes its own vertex's normal from [`Scratch::normal`], where `normals` leaves it: both
+/// see each ring when it has just been loaded.
+///
+/// # Errors
+/// As [`sweep`].
+pub(crate) fn sweep_with_normals<N: Quantity, Q: Quantity>(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    double: bool,
+    normals: &N,
+    quantity: &Q,
+) -> Result<(), Error> {
+    sweep_calls(topology, points, run, double, &Both { first: normals, second: quantity })
+}
+
+fn sweep_calls(
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    double: bool,
+    calls: &impl Calls,
+) -> Result<(), Error> {
     check_points(topology, points, run.vertices)?;
     match points.array() {
-        PointArray::F32(points) => sweep_points(topology, points, run, double, quantity),
-        PointArray::F64(points) => sweep_points(topology, points, run, true, quantity),
+        PointArray::F32(points) => sweep_points(topology, points, run, double, calls),
+        PointArray::F64(points) => sweep_points(topology, points, run, true, calls),
     }
 }
 
@@ -177,23 +223,23 @@ fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
     Some(whole - budget)
 }
 
-fn sweep_points<Q: Quantity, S: Coordinate>(
+fn sweep_points<C: Calls, S: Coordinate>(
     topology: &Topology,
     points: &StridedPoints<'_, S>,
     run: &mut Run<'_>,
     double: bool,
-    quantity: &Q,
+    calls: &C,
 ) -> Result<(), Error> {
     let few = run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
     let frames = match topology.polygons() {
         Some(polygons) => {
-            let normals = quantity.neighbour_normals();
-            let asked = Asked { centroids: Q::CENTROIDS, bends: Q::FLAT_ANGLES, normals };
+            let normals = calls.neighbour_normals();
+            let asked = Asked { centroids: C::CENTROIDS, bends: C::FLAT_ANGLES, normals };
             Some(Frames::new(points, polygons, asked, few, run.threads)?)
         }
         None => None,
     };
-    let normals = quantity.neighbour_normals().map(StridedPoints::from);
+    let normals = calls.neighbour_normals().map(NeighbourNormals::from);
     let (vertices, level) = (run.vertices, run.level);
     let chunks = vertices.map_or(topology.rings().windows(), |vertices| vertices.len().div_ceil(WINDOW));
     // The one buffer whose size depends on the mesh is there before the first result is written. Vertices that need it
@@ -208,14 +254,29 @@ fn sweep_points<Q: Quantity, S: Coordinate>(
     };
     let large = Mutex::new(LargeRows::new(large)?);
     let sweep = Sweep { topology, points, frames, normals, vertices, double, large: &large };
-    for_each_chunk(run, chunks, |claims| dispatch(level, Start { sweep: &sweep, quantity, claims }))
+    for_each_chunk(run, chunks, |claims| dispatch(level, Start { sweep: &sweep, calls, claims }))
+}
+
+/// [`NormalRows`] to load from.
+enum NeighbourNormals<'a> {
+    Single(StridedPoints<'a, f32>),
+    Double(StridedPoints<'a, f64>),
+}
+
+impl<'a> From<NormalRows<'a>> for NeighbourNormals<'a> {
+    fn from(rows: NormalRows<'a>) -> Self {
+        match rows {
+            NormalRows::Single(rows) => NeighbourNormals::Single(rows.into()),
+            NormalRows::Double(rows) => NeighbourNormals::Double(rows.into()),
+        }
+    }
 }
 
 struct Sweep<'a, S> {
     topology: &'a Topology,
     points: &'a StridedPoints<'a, S>,
     frames: Option<Frames<'a, S>>,
-    normals: Option<StridedPoints<'a, f64>>,
+    normals: Option<NeighbourNormals<'a>>,
     vertices: Option<&'a [u32]>,
     double: bool,
     /// For vertices with more edges than [`LaneRows`] hold.
@@ -223,18 +284,17 @@ struct Sweep<'a, S> {
 }
 
 /// One thread's part of a sweep, before the quantity's type is forgotten.
-struct Start<'a, 'c, 'p, 's, Q, S> {
+struct Start<'a, 'c, 'p, 's, C, S> {
     sweep: &'a Sweep<'a, S>,
-    quantity: &'a Q,
+    calls: &'a C,
     claims: &'c mut Claims<'s, 'p>,
 }
 
-impl<Q: Quantity, S: Coordinate> Task for Start<'_, '_, '_, '_, Q, S> {
+impl<C: Calls, S: Coordinate> Task for Start<'_, '_, '_, '_, C, S> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        let Start { sweep, quantity, claims } = self;
-        let calls: &dyn BlockCalls<W> = quantity;
-        W::call(Worker { sweep, calls, claims });
+        let Start { sweep, calls, claims } = self;
+        calls.with_calls::<W>(|calls| W::call(Worker { sweep, calls, claims }));
     }
 }
 
@@ -341,7 +401,11 @@ impl<S: Coordinate> Sweep<'_, S> {
         let squared = &mut squared[..corners + 1];
         let normals: &[_] = match &self.normals {
             Some(values) => {
-                self.topology.rings().load_values(values, block, corners, closed, normals);
+                let rings = self.topology.rings();
+                match values {
+                    NeighbourNormals::Single(values) => rings.load_values(values, block, corners, closed, normals),
+                    NeighbourNormals::Double(values) => rings.load_values(values, block, corners, closed, normals),
+                }
                 &normals[..corners + 1]
             }
             None => &[],
@@ -460,12 +524,15 @@ impl<S: Coordinate> Sweep<'_, S> {
     }
 
     /// Fills `normals` with those of the neighbours, in the order of [`Sweep::load_alone`].
-    fn load_normals_alone(&self, vertex: usize, values: &StridedPoints<'_, f64>, normals: &mut [Vector3<f64>]) {
+    fn load_normals_alone(&self, vertex: usize, values: &NeighbourNormals<'_>, normals: &mut [Vector3<f64>]) {
         let mut count = 0;
         for fan in self.topology.fans(vertex) {
             let around = fan.neighbours.iter().chain(fan.neighbours.first().filter(|_| fan.closed));
             for &neighbour in around {
-                normals[count] = values.get(neighbour as usize).into();
+                normals[count] = match values {
+                    NeighbourNormals::Single(values) => values.get(neighbour as usize).into(),
+                    NeighbourNormals::Double(values) => values.get(neighbour as usize).into(),
+                };
                 count += 1;
             }
         }

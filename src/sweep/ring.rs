@@ -182,6 +182,16 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
         let kept = V::splat(V::Scalar::TINY).lt(self.cross_squared);
         V::select(kept, self.cross_squared, V::zero()).sqrt()
     }
+    /// In single precision not a number where the edges are nearly parallel, so that a sum with such a corner in it is left to
+    /// double precision; 0 otherwise.
+    #[inline(always)]
+    pub fn doubt(&self) -> V {
+        if !V::Scalar::SINGLE {
+            return V::zero();
+        }
+        let clear = (self.product * V::constant(1.0 / 256.0)).lt(self.cross_squared);
+        V::select(clear, V::zero(), V::constant(f64::NAN))
+    }
     /// [`Face::direction`]
     #[inline(always)]
     pub fn direction(&self) -> Vector3<V> {
@@ -451,6 +461,8 @@ impl<V: Vector> Face<V> for Polygon<V> {
 
 /// Rows of numbers that an estimator may keep while it goes around a ring; long enough for every corner and two more.
 pub(crate) struct Scratch<'a, V> {
+    /// The normal that an estimator of normals found last: see [`sweep_with_normals`](super::sweep_with_normals).
+    pub normal: &'a mut Vector3<V>,
     /// Vectors.
     pub vectors: &'a mut [Vector3<V>],
     /// Numbers.

@@ -16,6 +16,7 @@ pub(super) struct LaneRows<V> {
     faces: [Polygon<V>; LANE_EDGES],
     vectors: [Vector3<V>; LANE_EDGES + 1],
     numbers: [[V; LANE_EDGES + 1]; 3],
+    normal: Vector3<V>,
 }
 
 /// Rows for rings of any size, in `f64`.
@@ -26,6 +27,7 @@ pub(super) struct LargeRows {
     faces: Vec<Polygon<f64>>,
     vectors: Vec<Vector3<f64>>,
     numbers: [Vec<f64>; 3],
+    normal: Vector3<f64>,
 }
 
 /// Either, as it is used.
@@ -64,6 +66,7 @@ impl<V: Vector> LaneRows<V> {
             faces: [no_face(); LANE_EDGES],
             vectors: [Vector3::zero(); LANE_EDGES + 1],
             numbers: [[V::zero(); LANE_EDGES + 1]; 3],
+            normal: Vector3::zero(),
         }
     }
 
@@ -75,6 +78,7 @@ impl<V: Vector> LaneRows<V> {
             normals: &mut self.normals,
             faces: &mut self.faces,
             scratch: Scratch {
+                normal: &mut self.normal,
                 vectors: &mut self.vectors,
                 numbers: self.numbers.each_mut().map(|row| row.as_mut_slice()),
             },
@@ -94,6 +98,7 @@ impl LargeRows {
             faces: filled(edges, no_face())?,
             vectors: filled(scratch, Vector3::zero())?,
             numbers: [numbers()?, numbers()?, numbers()?],
+            normal: Vector3::zero(),
         })
     }
 
@@ -104,6 +109,7 @@ impl LargeRows {
             normals: &mut self.normals,
             faces: &mut self.faces,
             scratch: Scratch {
+                normal: &mut self.normal,
                 vectors: &mut self.vectors,
                 numbers: self.numbers.each_mut().map(|row| row.as_mut_slice()),
             },

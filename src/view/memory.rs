@@ -17,6 +17,8 @@ unsafe impl Zero for u32 {}
 // SAFETY: as above.
 unsafe impl Zero for f64 {}
 // SAFETY: as above.
+unsafe impl Zero for f32 {}
+// SAFETY: as above.
 unsafe impl<T: Zero, const N: usize> Zero for [T; N] {}
 
 /// A vector of `count` zeros, or [`Error::OutOfMemory`].

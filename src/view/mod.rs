@@ -15,7 +15,7 @@ mod slots;
 
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
-pub(crate) use memory::zeroed;
+pub(crate) use memory::{Zero, zeroed};
 pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};

@@ -2,7 +2,7 @@
 
 use super::checked_stride;
 use crate::error::Error;
-use crate::simd::Real;
+use crate::simd::{MAX_LANES, Real};
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 
@@ -95,6 +95,40 @@ impl<'a, const N: usize> Output<'a, N> {
         }
     }
 
+    /// Writes the elements `vertices`, in the lanes whose bit is set in `lanes`, from rows of lanes; values beyond the scalar's
+    /// range become its largest.
+    #[inline(always)]
+    pub(crate) fn write_block(&self, vertices: &[u32], lanes: u32, values: &[[f64; MAX_LANES]; N]) {
+        // Explicit loops throughout: closures are not inlined everywhere, and this is a large part of the cheaper estimators.
+        if self.double {
+            for (lane, &vertex) in vertices.iter().enumerate().take(MAX_LANES) {
+                if lanes & 1 << lane != 0 {
+                    let mut element = [0.0; N];
+                    for axis in 0..N {
+                        element[axis] = values[axis][lane].clamp(-f64::MAX, f64::MAX);
+                    }
+                    self.write_double(vertex as usize, element);
+                }
+            }
+            return;
+        }
+        let mut singles = [[0.0f32; MAX_LANES]; N];
+        for axis in 0..N {
+            for lane in 0..MAX_LANES {
+                singles[axis][lane] = values[axis][lane].clamp(-f32::MAX as f64, f32::MAX as f64) as f32;
+            }
+        }
+        for (lane, &vertex) in vertices.iter().enumerate().take(MAX_LANES) {
+            if lanes & 1 << lane != 0 {
+                let mut element = [0.0; N];
+                for axis in 0..N {
+                    element[axis] = singles[axis][lane];
+                }
+                self.write_single(vertex as usize, element);
+            }
+        }
+    }
+
     #[inline(always)]
     fn element(&self, index: usize) -> *mut u8 {
         assert!(index < self.count, "output {index} of {}", self.count);
@@ -105,18 +139,18 @@ impl<'a, const N: usize> Output<'a, N> {
     #[inline(always)]
     fn write_single(&self, index: usize, value: [f32; N]) {
         let element = self.element(index).cast::<u32>();
-        for (axis, x) in value.into_iter().enumerate() {
+        for axis in 0..N {
             // SAFETY: `N` aligned f32 start at the element, in memory that is ours to write.
-            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
+            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(value[axis].to_bits(), Relaxed);
         }
     }
 
     #[inline(always)]
     fn write_double(&self, index: usize, value: [f64; N]) {
         let element = self.element(index).cast::<u64>();
-        for (axis, x) in value.into_iter().enumerate() {
+        for axis in 0..N {
             // SAFETY: `N` aligned f64 start at the element, in memory that is ours to write.
-            unsafe { store_double(element.add(axis), x.to_bits()) };
+            unsafe { store_double(element.add(axis), value[axis].to_bits()) };
         }
     }
 }

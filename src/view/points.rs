@@ -93,6 +93,11 @@ impl<'a> Points<'a> {
         }
     }
 
+    /// Whether the scalars are `f64`.
+    pub fn is_double(&self) -> bool {
+        matches!(self.0, PointArray::F64(_))
+    }
+
     /// Finds the first position that is NaN or infinite.
     ///
     /// # Errors
@@ -105,12 +110,12 @@ impl<'a> Points<'a> {
     }
 }
 
-impl<'a> From<&'a [[f64; 3]]> for StridedPoints<'a, f64> {
-    fn from(points: &'a [[f64; 3]]) -> Self {
+impl<'a, S> From<&'a [[S; 3]]> for StridedPoints<'a, S> {
+    fn from(points: &'a [[S; 3]]) -> Self {
         StridedPoints {
             base: points.as_ptr().cast(),
             count: points.len(),
-            stride: size_of::<[f64; 3]>(),
+            stride: size_of::<[S; 3]>(),
             memory: PhantomData,
         }
     }
