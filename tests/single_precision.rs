@@ -1,0 +1,166 @@
+//! Curvatures in single precision are those of double precision, but for what single precision costs anywhere.
+
+mod common;
+use common::mesh::{self, Mesh};
+use common::{length, real, sub};
+use umbilic::*;
+
+/// How far, in units of a power of one by the shortest edge at the vertex, a result in single precision may be off.
+const TOLERANCE: f64 = 2e-6;
+
+struct Answers<S> {
+    k1: Vec<S>,
+    k2: Vec<S>,
+    mean: Vec<S>,
+    gaussian: Vec<S>,
+    mean_normal: Vec<[S; 3]>,
+    direction1: Vec<[S; 3]>,
+    direction2: Vec<[S; 3]>,
+    status: Vec<u8>,
+}
+
+macro_rules! answers {
+    ($name:ident, $scalar:ty) => {
+        fn $name(
+            topology: &Topology,
+            positions: &[[f32; 3]],
+            options: &CurvatureOptions<'_>,
+            principal: bool,
+        ) -> Answers<$scalar> {
+            let count = positions.len();
+            let (number, vector) = (|| vec![0.0; count], || vec![[0.0; 3]; count]);
+            let mut found = Answers {
+                k1: number(),
+                k2: number(),
+                mean: number(),
+                gaussian: number(),
+                mean_normal: vector(),
+                direction1: vector(),
+                direction2: vector(),
+                status: vec![0; count],
+            };
+            let method = options.method;
+            let has = |kind| method.has(kind);
+            let directions = principal && has(CurvatureKind::Directions);
+            let outputs = CurvatureOutputs {
+                k1: (principal && has(CurvatureKind::Principal)).then(|| found.k1.as_mut_slice().into()),
+                k2: (principal && has(CurvatureKind::Principal)).then(|| found.k2.as_mut_slice().into()),
+                mean: has(CurvatureKind::Mean).then(|| found.mean.as_mut_slice().into()),
+                gaussian: has(CurvatureKind::Gaussian).then(|| found.gaussian.as_mut_slice().into()),
+                mean_normal: has(CurvatureKind::Mean).then(|| found.mean_normal.as_mut_slice().into()),
+                direction1: directions.then(|| found.direction1.as_mut_slice().into()),
+                direction2: directions.then(|| found.direction2.as_mut_slice().into()),
+                status: Some(found.status.as_mut_slice().into()),
+                ..CurvatureOutputs::default()
+            };
+            curvatures(topology, &positions.into(), options, Run::default(), &outputs).unwrap();
+            drop(outputs);
+            found
+        }
+    };
+}
+answers!(single, f32);
+answers!(double, f64);
+
+fn shortest_edge(topology: &Topology, positions: &[[f64; 3]], vertex: usize) -> f64 {
+    let edge = |&other: &u32| length(sub(positions[other as usize], positions[vertex]));
+    topology.ring(vertex).iter().map(edge).fold(f64::INFINITY, f64::min)
+}
+
+/// The largest errors of a method on a mesh, and how many vertices were compared.
+fn compare(mesh: &Mesh, method: Method, given: bool) -> (f64, usize) {
+    let positions = mesh.single();
+    let wide: Vec<[f64; 3]> = positions.iter().map(|p| p.map(f64::from)).collect();
+    let topology = Topology::new(&Faces::polygons(&mesh.indices, &mesh.offsets).unwrap(), positions.len()).unwrap();
+    let mut normals = vec![[0f32; 3]; positions.len()];
+    let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
+    vertex_normals(&topology, &positions[..].into(), Weight::Angle, Run::default(), &outputs).unwrap();
+    drop(outputs);
+    let normals: Points<'_> = normals[..].into();
+    let options = CurvatureOptions {
+        method,
+        section: Section::Circle,
+        normals: if given { VertexNormals::Given(normals) } else { VertexNormals::Computed(Weight::Conformal) },
+        ..CurvatureOptions::default()
+    };
+    let principal = !matches!(method, Method::Watanabe | Method::Meyer);
+    let found = single(&topology, &positions, &options, principal);
+    let expected = double(&topology, &positions, &options, principal);
+    let (mut worst, mut compared) = (0.0f64, 0);
+    for vertex in 0..positions.len() {
+        assert_eq!(found.status[vertex], expected.status[vertex], "{}, {method:?}, vertex {vertex}", mesh.name);
+        let edge = shortest_edge(&topology, &wide, vertex);
+        if topology.ring(vertex).is_empty() || edge == 0.0 {
+            continue;
+        }
+        compared += 1;
+        let numbers = [
+            (found.k1[vertex], expected.k1[vertex], 1),
+            (found.k2[vertex], expected.k2[vertex], 1),
+            (found.mean[vertex], expected.mean[vertex], 1),
+            (found.gaussian[vertex], expected.gaussian[vertex], 2),
+        ];
+        let mut errors = numbers.map(|(found, expected, power)| {
+            // Relative where curvature is more than one by the edge.
+            let size = (expected.abs() * edge.powi(power)).max(1.0);
+            (found as f64 - expected).abs() * edge.powi(power) / size
+        });
+        let vector = sub(found.mean_normal[vertex].map(f64::from), expected.mean_normal[vertex]);
+        errors[2] = errors[2].max(length(vector) * edge / (expected.mean[vertex].abs() * edge).max(1.0));
+        let error = errors.into_iter().fold(0.0, f64::max);
+        // The direction is as sharp as the principal curvatures are apart.
+        let apart = (expected.k1[vertex] - expected.k2[vertex]) * edge;
+        if principal && apart > 1e-3 {
+            let d = |v: [f32; 3]| v.map(f64::from);
+            let (d1, d2) = (d(found.direction1[vertex]), d(found.direction2[vertex]));
+            let (e1, e2) = (expected.direction1[vertex], expected.direction2[vertex]);
+            let away = |d: [f64; 3], e: [f64; 3]| length(sub(d, e)).min(length(sub(d, e.map(|x| -x))));
+            let away = away(d1, e1).max(away(d2, e2)) * apart.min(1.0) / 4.0;
+            assert!(!(away > TOLERANCE), "{}, {method:?}, vertex {vertex}: direction off by {away}", mesh.name);
+        }
+        if error > TOLERANCE {
+            println!("{}, {method:?}, given {given}, vertex {vertex}: {error:e} {errors:?} edge {edge}", mesh.name);
+        }
+        worst = worst.max(error);
+    }
+    (worst, compared)
+}
+
+const METHODS: [Method; 8] = [
+    Method::LeastSquares,
+    Method::Taubin,
+    Method::Watanabe,
+    Method::Meyer,
+    Method::AngleDefect,
+    Method::Rusinkiewicz,
+    Method::NormalCycle,
+    Method::CorrectedMeasure,
+];
+
+#[test]
+fn single_precision_is_as_good_as_it_can_be() {
+    let mut meshes = vec![
+        mesh::torus(90, 60, 0.1, 0.0, 1),
+        mesh::torus(60, 50, 0.5, 0.0, 2),
+        mesh::height_field(60, 0.0, 3),
+        mesh::tetrahedron_sphere(5),
+        mesh::torus(30, 20, 0.3, 0.5, 4),
+    ];
+    meshes.extend((0..30).map(|seed| mesh::soup(40, 60, 3, seed)));
+    meshes.extend(real::meshes());
+    let mut failures = vec![];
+    for method in METHODS {
+        for given in [false, true] {
+            let mut all = 0;
+            for mesh in &meshes {
+                let (worst, compared) = compare(mesh, method, given);
+                all += compared;
+                if worst > TOLERANCE {
+                    failures.push(format!("{}, {method:?}, given {given}: {worst:e}", mesh.name));
+                }
+            }
+            assert!(all > 10_000);
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
