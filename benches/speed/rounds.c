@@ -1,0 +1,89 @@
+#define _GNU_SOURCE
+#include "rounds.h"
+
+#include "scatter.h"
+
+#include <math.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+static const double LONG_ENOUGH = 0.003; /* seconds */
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+typedef struct scatter_context {
+  const mesh *m;
+  float *normals;
+} scatter_context;
+
+static void run_scatter(void *context) {
+  scatter_context *c = context;
+  scatter_area(c->m, c->normals);
+}
+
+/* Seconds of one run, as the mean of so many. */
+static double time_runs(void (*run)(void *), void *context, int repeats) {
+  double start = now();
+  for (int i = 0; i < repeats; i++) run(context);
+  return (now() - start) / repeats;
+}
+
+/* How often something is to be run, after it has been run to warm up. */
+static int repeats_of(void (*run)(void *), void *context) {
+  run(context);
+  double seconds = time_runs(run, context, 1);
+  return seconds * 1000 > LONG_ENOUGH ? (int)ceil(LONG_ENOUGH / seconds) : 1000;
+}
+
+/* Keeps the process where it is, until `all` is set again. */
+static void bind_here(cpu_set_t *all) {
+  cpu_set_t here;
+  sched_getaffinity(0, sizeof *all, all);
+  CPU_ZERO(&here);
+  CPU_SET((size_t)sched_getcpu(), &here);
+  sched_setaffinity(0, sizeof here, &here);
+}
+
+static void print_samples(const char *key, const double *samples, int count) {
+  printf(", \"%s\": [", key);
+  for (int i = 0; i < count; i++) printf("%s%.4g", i ? ", " : "", samples[i]);
+  printf("]");
+}
+
+static void print_task(const bench *b, const mesh *m, const task *t, const double *samples, const double *scatter) {
+  printf("{\"program\": \"%s\", \"mesh\": \"%s\", \"memory\": \"%s\"", b->program, b->mesh_name, b->memory);
+  printf(", \"library\": \"%s\", \"name\": \"%s\", \"scalar\": \"%s\"", t->library, t->name, t->scalar);
+  printf(", \"level\": \"%s\", \"threads\": %d, \"triangles\": %zu", t->level, t->threads, m->triangle_count);
+  print_samples("ns", samples, b->rounds);
+  print_samples("scatter", scatter, b->rounds);
+  printf("}\n");
+}
+
+void time_tasks(const bench *b, const mesh *m, const task *tasks, size_t count) {
+  size_t rounds = (size_t)b->rounds;
+  double *samples = allocate(count * rounds * sizeof *samples), *scatter = allocate(count * rounds * sizeof *scatter);
+  int *repeats = allocate(count * sizeof *repeats);
+  scatter_context context = {m, allocate(m->vertex_count * 3 * sizeof(float))};
+  int scatter_repeats = repeats_of(run_scatter, &context);
+  for (size_t t = 0; t < count; t++) repeats[t] = repeats_of(tasks[t].run, tasks[t].context);
+  for (size_t r = 0; r < rounds; r++)
+    for (size_t t = 0; t < count; t++) {
+      cpu_set_t all;
+      if (tasks[t].bound) bind_here(&all);
+      double ns = 1e9 / (double)m->triangle_count;
+      scatter[t * rounds + r] = ns * time_runs(run_scatter, &context, scatter_repeats);
+      samples[t * rounds + r] = ns / tasks[t].share * time_runs(tasks[t].run, tasks[t].context, repeats[t]);
+      if (tasks[t].bound) sched_setaffinity(0, sizeof all, &all);
+    }
+  for (size_t t = 0; t < count; t++) print_task(b, m, &tasks[t], samples + t * rounds, scatter + t * rounds);
+  free(context.normals);
+  free(samples);
+  free(scatter);
+  free(repeats);
+}
