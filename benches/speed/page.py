@@ -1,0 +1,107 @@
+"""docs/benchmarks.md."""
+
+import tables
+from samples import Samples
+from targets import TARGETS
+
+
+def page(samples: Samples) -> str:
+    about = samples.about
+    others = f"{100 * about['others']:.0f} %"
+    lines = [
+        "# Speed and memory",
+        "",
+        f"Written by `make bench` on {about['date']}.",
+        "",
+        f"- {about['processor']}",
+        f"- {about['system']}",
+        f"- {about['compiler']}, `-O3 -march=native`; wheels as their vendors built them",
+        f"- {'; '.join(about['libraries'])}",
+        f"- while it ran, other programs took {others} of the CPUs' time (two threads need a machine of their own)",
+        "",
+        *(f"**{line}**\n" for line in about["missing"]),
+        "Times are wall time in nanoseconds a triangle; a polygon counts as the triangles that it can be cut into. **×** is "
+        "the ratio to a plain C loop, the *scatter kernel*, which adds each triangle's cross product to its three vertices "
+        "and normalises (`float`, no checks, one thread, warm memory). Kernel, peer and umbilic take turns in one process, "
+        f"and a ratio is the median over {about['rounds']} rounds of the ratios within a round. Cells of the large tables have "
+        "the time, the ratio in bold, and half of the ratio's interquartile range; the first ones have quartiles.",
+        "",
+        "*Warm*: what is freed is kept by the process and used again, and results go to the same arrays in every round. "
+        "*Fresh*: blocks of 1 MB and more, results included, come from the system page by page, and go back to it, in every "
+        "call. Memory is warm where nothing else is said. *f32* and *f64* are the scalars of positions, given normals and all "
+        "results.",
+        "",
+        *tables.kernel(samples),
+        "## What must be reached, and aims",
+        "",
+        "As ratios to the scatter kernel, on the sphere of 1.3 M triangles in the order in which it is made, one thread, "
+        "unless a row says something else. CGAL's: how many times as long CGAL takes for the same vertices, on the sphere of "
+        "82 k triangles.",
+        "",
+        *tables.aims(samples),
+        "## Normals",
+        "",
+        "On a topology that is there, but for \"from faces\", which is one call without. Nanoseconds a triangle, and ×.",
+        "",
+        *tables.normals(samples, "f32"),
+        *tables.normals(samples, "f64"),
+        "## Vectors",
+        "",
+        "The option `simd` on the sphere of 1.3 M triangles (least squares: N_CM included).",
+        "",
+        *tables.levels(samples),
+        "## Warm and fresh memory",
+        "",
+        *tables.memory(samples),
+        "## Curvatures of large meshes",
+        "",
+        "k1, k2 and both directions. Normals (N_CM) are included unless they are given; adaptive jets include learning.",
+        "",
+        *tables.curvatures(samples),
+        "## All methods",
+        "",
+        "Normals that cost more than one-ring averages first, then sections and curvatures. Methods write k1, k2 and both "
+        "directions, or what they have of these, H and K.",
+        "",
+        *tables.methods(samples),
+        "## Two threads",
+        "",
+        "Nanoseconds a triangle with two threads, and the speed-up from one.",
+        "",
+        *tables.threads(samples),
+        "## Other libraries",
+        "",
+        "Nanoseconds a triangle of the other library, and how many times as long it takes as umbilic's method beside it, in "
+        "the same process. Their structures are built once, like umbilic's topology, and are there for the rest. One thread "
+        "means that the process is kept on one CPU; OpenMesh and CGAL have no more. They are given the quadrilaterals of the "
+        "quad-dominant mesh as they are; the others know triangles best, and they and umbilic are given two for each.",
+        "",
+        *tables.peers(samples),
+        *tables.agreements(samples),
+        "## Peak memory",
+        "",
+        "What a process that does only this needs at most above one that reads the same mesh and does nothing, on the sphere "
+        "of 1.3 M triangles (results included, f32; peers: structure included).",
+        "",
+        *tables.peaks(samples),
+        "## Scaling",
+        "",
+        "Spheres from a thousand to twenty million triangles: nanoseconds a triangle (f32, warm memory, one thread), and "
+        "bytes a triangle.",
+        "",
+        *tables.scaling(samples),
+        "![Nanoseconds and bytes a triangle against the number of triangles](scaling.png)",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def summary(samples: Samples) -> str:
+    """The targets, for the terminal."""
+    lines = []
+    for target in TARGETS:
+        spread = target.measured(samples)
+        if spread:
+            sign = ">=" if target.larger else "<="
+            limits = f"must {sign} {target.must:g}, aim {sign} {target.aim:g}"
+            lines.append(f"  {target.title:66}{spread.median:8.2f}   {limits:26}{target.verdict(spread).strip('*')}")
+    return "\n".join([*lines, *samples.about["missing"]])

@@ -1,0 +1,72 @@
+"""What was measured: one line of JSON for each task, as the programs print it, with the name of the set of tasks."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import quantiles
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Quartiles."""
+
+    low: float
+    median: float
+    high: float
+
+
+def spread(values: list[float]) -> Spread:
+    return Spread(*quantiles(values, n=4, method="inclusive")) if len(values) > 1 else Spread(*values * 3)
+
+
+class Sample:
+    def __init__(self, line: dict):
+        self.line, self.ns, self.scatter = line, line["ns"], line["scatter"]
+
+    def time(self) -> Spread:
+        """Nanoseconds a triangle."""
+        return spread(self.ns)
+
+    def ratio(self) -> Spread:
+        """To the scatter kernel, of the same round."""
+        return spread([mine / reference for mine, reference in zip(self.ns, self.scatter)])
+
+    def times(self, other: "Sample") -> Spread:
+        """How many times as long as the other, of the same program, in the same round."""
+        return spread([mine / theirs for mine, theirs in zip(self.ns, other.ns)])
+
+
+class Samples:
+    def __init__(self, path: Path):
+        lines = [json.loads(line) for line in path.read_text().splitlines()]
+        self.about = next(line["about"] for line in lines if "about" in line)
+        self.tasks = [Sample(line) for line in lines if "ns" in line]
+        self.peaks = [line for line in lines if "peak" in line]
+        self.agreements = [line for line in lines if "agreement" in line]
+
+    def find(self, **wanted) -> Sample | None:
+        """The task whose line has these values; umbilic's at its best level on one thread in warm memory unless they say
+        something else."""
+        wanted = dict(program="umbilic", library="umbilic", level="best", threads=1, memory="warm") | wanted
+        matches = (task for task in self.tasks if wanted.items() <= task.line.items())
+        return next(matches, None)
+
+    def levels(self) -> list[str]:
+        """Those of the option `simd` that the CPU has."""
+        known = ["portable", "sse2", "avx2", "avx512"]
+        return known[: known.index(self.about["vectors"]) + 1]
+
+    def all(self, **wanted) -> list[Sample]:
+        return [task for task in self.tasks if wanted.items() <= task.line.items()]
+
+    def peak(self, program: str, mesh: str, what: str) -> float | None:
+        """Bytes a triangle above those of the program with the mesh."""
+        found = {line["peak"]: line for line in self.peaks if (line["program"], line["mesh"]) == (program, mesh)}
+        if not {what, "nothing"} <= found.keys():
+            return None
+        return (found[what]["bytes"] - found["nothing"]["bytes"]) / found[what]["triangles"]
+
+    def handle(self, mesh: str) -> float | None:
+        """Bytes a triangle that the topology holds."""
+        lines = [line for line in self.peaks if line["mesh"] == mesh and "handle" in line]
+        return lines[0]["handle"] / lines[0]["triangles"] if lines else None
