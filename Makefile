@@ -13,15 +13,17 @@ MESHES := target/meshes/meshes
 CMAKE_BUILD := target/examples
 VENV := target/venv
 PAPER_VENV := target/paper-venv
+BENCH_TARGET := target/bench
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench accuracy paper pictures header packages clean \
-  FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint bench bench-programs bench-instructions accuracy \
+  paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
-	@echo "make bench [BENCH=...]    every weight and method against a plain C scatter loop, CGAL and libigl"
+	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
+	@echo "make bench-instructions   instructions that each kernel takes, compared with those that are kept [UPDATE=1]"
 	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README; scans by umbilic, libigl and VCG: docs/scans.md"
@@ -91,12 +93,11 @@ test-c: $(LIBRARY) | packages
 	$(CC) -std=c11 $(STRICT) -Iinclude -c tests/c/layout.c -o target/c/layout.o
 	sed -n '/^```c$$/,/^```$$/p' README.md | grep -v '^```' > target/c/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinclude -c target/c/readme.c -o target/c/readme.o
-	$(CC) $(BENCH_FLAGS) -c benches/normals.c -o target/c/bench-normals.o
-	$(CC) $(BENCH_FLAGS) -DWITH_CGAL -c benches/curvature.c -o target/c/bench-curvature.o
-	$(CXX) $(CGAL_FLAGS) -c benches/cgal_jets.cpp -o target/c/bench-cgal.o
-	$(PYTHON) -B -c 'compile(open("benches/curvature.py").read(), "benches/curvature.py", "exec")'
+	for script in benches/speed/*.py; do \
+	  $(PYTHON) -B -c 'import sys; compile(open(sys.argv[1]).read(), sys.argv[1], "exec")' $$script || exit 1; \
+	done
 
-# The C and C++ examples, OpenMesh and CGAL among them, on real meshes.
+# The C and C++ examples, OpenMesh and CGAL among them, on real meshes; the benchmarks are compiled.
 test-examples: $(LIBRARY) $(MESHES) | packages
 	cmake -S examples_c -B $(CMAKE_BUILD) -DCMAKE_BUILD_TYPE=Release \
 	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
@@ -107,6 +108,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
+	$(MAKE) --no-print-directory bench-programs
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
@@ -130,29 +132,32 @@ packages:
 
 # ---- benchmark ----
 
-BENCH_FLAGS := -std=c11 -O3 -Wall -Wextra -Wpedantic -Werror -Iinclude
-# gcc 12 calls its own AVX-512 intrinsics uninitialised.
-CGAL_FLAGS := -std=c++17 -O3 -DNDEBUG -DCGAL_EIGEN3_ENABLED -Wall -Wextra -Wpedantic -Werror -Wno-maybe-uninitialized \
-  -isystem /usr/include/eigen3
-BENCH_LINK := -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release
+# What Open3D's wheel needs.
+BENCH_PACKAGES := libusb-1.0-0
 
-# CGAL and libigl are compared with if they are installed; nothing is installed for them.
-bench: $(LIBRARY)
-	@mkdir -p target/bench
-	$(CC) $(BENCH_FLAGS) -march=native benches/normals.c -o target/bench/normals $(BENCH_LINK)
-	target/bench/normals $(BENCH)
-	@if [ -e /usr/include/CGAL/Monge_via_jet_fitting.h ] && [ -e /usr/include/eigen3/Eigen/SVD ]; then \
-	  set -e -x; \
-	  $(CC) $(BENCH_FLAGS) -march=native -DWITH_CGAL -c benches/curvature.c -o target/bench/curvature.o; \
-	  $(CXX) $(CGAL_FLAGS) -march=native -c benches/cgal_jets.cpp -o target/bench/cgal_jets.o; \
-	  $(CXX) target/bench/curvature.o target/bench/cgal_jets.o -o target/bench/curvature $(BENCH_LINK) -lgmp -lmpfr; \
-	else \
-	  set -e -x; \
-	  $(CC) $(BENCH_FLAGS) -march=native benches/curvature.c -o target/bench/curvature $(BENCH_LINK); \
-	fi
-	target/bench/curvature $(BENCH)
-	$$(if [ -x $(VENV)/bin/python ]; then echo $(VENV)/bin/python; else echo $(PYTHON); fi) -B benches/curvature.py \
-	  $(CURDIR)/$(LIBRARY) $(BENCH)
+# What is not to be had is left out, with a line that says so: some ten minutes.
+bench:
+	@.ci/packages $(PACKAGES) $(BENCH_PACKAGES) || echo "Not all packages are to be had."
+	$(MAKE) --no-print-directory bench-programs $(BENCH_TARGET)/venv/done
+	$(BENCH_TARGET)/venv/bin/python -B benches/speed/speed.py $(BENCH)
+
+bench-instructions:
+	@.ci/packages gcc g++ cmake valgrind
+	$(MAKE) --no-print-directory bench-programs
+	$(PYTHON) -B benches/speed/instructions.py $(if $(UPDATE),--update)
+
+bench-programs: $(LIBRARY)
+	cmake -S benches/speed -B $(BENCH_TARGET)/build -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
+	cmake --build $(BENCH_TARGET)/build
+
+$(BENCH_TARGET)/venv/done: benches/speed/requirements.txt benches/speed/peers.txt
+	$(PYTHON) -m venv $(BENCH_TARGET)/venv
+	$(BENCH_TARGET)/venv/bin/pip install --quiet --disable-pip-version-check -r benches/speed/requirements.txt
+	while read -r peer; do \
+	  $(BENCH_TARGET)/venv/bin/pip install --quiet --disable-pip-version-check "$$peer" || \
+	    echo "$$peer is not to be had: not compared with"; \
+	done < benches/speed/peers.txt
+	touch $@
 
 # ---- accuracy ----
 
