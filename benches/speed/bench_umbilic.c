@@ -31,6 +31,11 @@ static void add(list *l, const char *name, umb_scalar scalar, uint32_t threads, 
                                 call};
 }
 
+/* Where what is slow is worth its time. */
+static int is_small(list *l) {
+  return umb_topology_vertex_count(ours_topology(l->o)) < 200000;
+}
+
 /* Each name in both scalars on one thread. */
 static void add_all(list *l, const char *const *names) {
   for (; *names; names++) {
@@ -56,20 +61,27 @@ static void add_levels(list *l) {
 }
 
 static void add_threads(list *l) {
-  static const char *const names[] = {"area", "N_CM", "N_CM from faces", "least squares",
-                                      "Rusinkiewicz, on given normals", "adaptive jets, 4 rings", NULL};
+  static const char *const names[] = {"area",          "N_CM",
+                                      "N_CM from faces", "least squares",
+                                      "Rusinkiewicz, on given normals", NULL};
   for (uint32_t threads = 1; threads <= 2; threads++) {
     add(l, "topology", UMB_SCALAR_F32, threads, 0);
     for (const char *const *name = names; *name; name++) add(l, *name, UMB_SCALAR_F32, threads, 0);
     add(l, "N_CM", UMB_SCALAR_F64, threads, 0);
     add(l, "least squares", UMB_SCALAR_F64, threads, 0);
+    if (is_small(l)) add(l, "adaptive jets, 4 rings", UMB_SCALAR_F32, threads, 0);
   }
 }
 
 /* Those that are worth their time on a large mesh. */
 static void add_curvatures(list *l) {
   static const char *const names[] = {"least squares", "least squares, on given normals", "Rusinkiewicz, on given normals",
-                                      "corrected measure, on given normals", "adaptive jets, 4 rings", NULL};
+                                      "corrected measure, on given normals", NULL};
+  add_all(l, names);
+}
+
+static void add_adaptive(list *l) {
+  static const char *const names[] = {"adaptive jets, 4 rings", NULL};
   add_all(l, names);
 }
 
@@ -118,16 +130,22 @@ static void add_memory(list *l) {
   add(l, "least squares", UMB_SCALAR_F32, 1, 0);
 }
 
+static void add_memory_both(list *l) {
+  add_memory(l);
+  add(l, "N_CM", UMB_SCALAR_F64, 1, 0);
+  add(l, "least squares", UMB_SCALAR_F64, 1, 0);
+}
+
 static void add_scaling(list *l) {
   add_memory(l);
-  if (umb_topology_vertex_count(ours_topology(l->o)) < 200000) add(l, "adaptive jets, 4 rings", UMB_SCALAR_F32, 1, 0);
+  if (is_small(l)) add(l, "adaptive jets, 4 rings", UMB_SCALAR_F32, 1, 0);
 }
 
 static const struct {
   const char *name;
   void (*add)(list *l);
 } SETS[] = {{"normals", add_normals}, {"levels", add_levels}, {"threads", add_threads}, {"curvatures", add_curvatures},
-            {"methods", add_methods}, {"memory", add_memory}, {"scaling", add_scaling}};
+            {"adaptive", add_adaptive}, {"methods", add_methods}, {"memory", add_memory_both}, {"scaling", add_scaling}};
 
 static void peak(const program *p, ours *o) {
   double handle = 0;

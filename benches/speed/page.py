@@ -1,5 +1,7 @@
 """docs/benchmarks.md."""
 
+import textwrap
+
 import tables
 from samples import Samples
 from targets import TARGETS
@@ -18,8 +20,8 @@ def page(samples: Samples) -> str:
         f"- {about['compiler']}, `-O3 -march=native`; wheels as their vendors built them",
         f"- {'; '.join(about['libraries'])}",
         f"- while it ran, other programs took {others} of the CPUs' time (two threads need a machine of their own)",
+        *(f"- {line}" for line in about["missing"]),
         "",
-        *(f"**{line}**\n" for line in about["missing"]),
         "Times are wall time in nanoseconds a triangle; a polygon counts as the triangles that it can be cut into. **×** is "
         "the ratio to a plain C loop, the *scatter kernel*, which adds each triangle's cross product to its three vertices "
         "and normalises (`float`, no checks, one thread, warm memory). Kernel, peer and umbilic take turns in one process, "
@@ -81,7 +83,7 @@ def page(samples: Samples) -> str:
         "## Peak memory",
         "",
         "What a process that does only this needs at most above one that reads the same mesh and does nothing, on the sphere "
-        "of 1.3 M triangles (results included, f32; peers: structure included).",
+        "of 1.3 M triangles: results and structure included; umbilic's in f32, the others' in their scalars as above.",
         "",
         *tables.peaks(samples),
         "## Scaling",
@@ -92,7 +94,14 @@ def page(samples: Samples) -> str:
         *tables.scaling(samples),
         "![Nanoseconds and bytes a triangle against the number of triangles](scaling.png)",
     ]
-    return "\n".join(lines) + "\n"
+    return "\n".join(map(wrapped, lines)) + "\n"
+
+
+def wrapped(line: str) -> str:
+    """Of the width of the other pages; tables stay as they are."""
+    if line.startswith(("|", "!", "#")):
+        return line
+    return textwrap.fill(line, 120, subsequent_indent="  " if line.startswith("- ") else "", break_on_hyphens=False)
 
 
 def summary(samples: Samples) -> str:

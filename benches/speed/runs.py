@@ -50,6 +50,7 @@ def umbilic_runs(names: list[str]) -> list[Run]:
     found += [Run("umbilic", name, "threads") for name in names]
     found += [Run("umbilic", "natural", "levels")]
     found += [Run("umbilic", name, "curvatures") for name in ("natural", "shuffled")]
+    found += [Run("umbilic", "natural", "adaptive")]
     found += [Run("umbilic", name, "methods") for name in ("small", "torus", "quads")]
     return found
 

@@ -46,6 +46,15 @@ def names(samples: list[Sample]) -> list[str]:
     return list(dict.fromkeys(sample.line["name"] for sample in samples))
 
 
+def keys(samples: list[Sample]) -> list[tuple[str, str]]:
+    """Names with scalars, likewise."""
+    return list(dict.fromkeys((sample.line["name"], sample.line["scalar"]) for sample in samples))
+
+
+def label(name: str, scalar: str) -> str:
+    return name if name == "topology" else f"{name}, {scalar}"
+
+
 def aims(samples: Samples) -> list[str]:
     rows = []
     for target in TARGETS:
@@ -81,34 +90,32 @@ def normals(samples: Samples, scalar: str) -> list[str]:
 def levels(samples: Samples) -> list[str]:
     found = samples.all(program="umbilic", set="levels")
     kinds = samples.levels()
-    keys = dict.fromkeys((sample.line["name"], sample.line["scalar"]) for sample in found)
     rows = [
-        [f"{name}, {scalar}", *(both(samples.find(set="levels", name=name, scalar=scalar, level=kind)) for kind in kinds)]
-        for name, scalar in keys
+        [label(name, scalar), *(both(samples.find(set="levels", name=name, scalar=scalar, level=kind)) for kind in kinds)]
+        for name, scalar in keys(found)
     ]
     return table(["", *kinds], rows)
 
 
 def memory(samples: Samples) -> list[str]:
     rows = []
-    for name in names(samples.all(program="umbilic", set="memory")):
-        for mesh, title in samples.about["meshes"].items():
-            fresh = samples.find(set="memory", mesh=mesh, name=name, memory="fresh")
-            warm = samples.find(set="normals", mesh=mesh, name=name, scalar="f32")
-            warm = warm or samples.find(set="threads", mesh=mesh, name=name, scalar="f32")
-            rows.append([f"{name}, {title}", both(warm), both(fresh)])
-    return table(["f32", "warm", "fresh"], rows)
+    for name, scalar in keys(samples.all(program="umbilic", set="memory")):
+        for kind, sets in (("warm", ("normals", "threads")), ("fresh", ("memory",))):
+            cells = []
+            for mesh in samples.about["meshes"]:
+                wanted = dict(mesh=mesh, name=name, scalar=scalar, memory=kind)
+                found = [sample for tasks in sets if (sample := samples.find(set=tasks, **wanted))]
+                cells.append(both(found[0] if found else None))
+            rows.append([f"{label(name, scalar)}: {kind}", *cells])
+    return table(["", *samples.about["meshes"].values()], rows)
 
 
 def curvatures(samples: Samples) -> list[str]:
-    rows = [
-        [
-            f"{name}, {scalar}",
-            *(both(samples.find(set="curvatures", mesh=mesh, name=name, scalar=scalar)) for mesh in ("natural", "shuffled")),
-        ]
-        for name in names(samples.all(program="umbilic", set="curvatures"))
-        for scalar in ("f32", "f64")
-    ]
+    rows = []
+    for tasks in ("curvatures", "adaptive"):
+        for name, scalar in keys(samples.all(program="umbilic", set=tasks)):
+            found = (samples.find(set=tasks, mesh=mesh, name=name, scalar=scalar) for mesh in ("natural", "shuffled"))
+            rows.append([label(name, scalar), *map(both, found)])
     return table(["", *(samples.about["meshes"][mesh] for mesh in ("natural", "shuffled"))], rows)
 
 
@@ -123,16 +130,15 @@ def methods(samples: Samples) -> list[str]:
 
 def threads(samples: Samples) -> list[str]:
     meshes = samples.about["meshes"]
-    keys = dict.fromkeys((s.line["name"], s.line["scalar"]) for s in samples.all(program="umbilic", set="threads"))
     rows = []
-    for name, scalar in keys:
+    for name, scalar in keys(samples.all(program="umbilic", set="threads")):
         cells = []
         for mesh in meshes:
             one, two = (
                 samples.find(set="threads", mesh=mesh, name=name, scalar=scalar, threads=count) for count in (1, 2)
             )
             cells.append(short(two.time(), one.times(two)) if one and two else "—")
-        rows.append([name if name == "topology" else f"{name}, {scalar}", *cells])
+        rows.append([label(name, scalar), *cells])
     return table(["", *meshes.values()], rows)
 
 
