@@ -10,6 +10,7 @@ from targets import TARGETS
 def page(samples: Samples) -> str:
     about = samples.about
     others = f"{100 * about['others']:.0f} %"
+    clock = "CPU time (two threads, and one beside two: wall time)" if about["cpu"] else "wall time"
     lines = [
         "# Speed and memory",
         "",
@@ -22,7 +23,7 @@ def page(samples: Samples) -> str:
         f"- while it ran, other programs took {others} of the CPUs' time (two threads need a machine of their own)",
         *(f"- {line}" for line in about["missing"]),
         "",
-        "Times are wall time in nanoseconds a triangle; a polygon counts as the triangles that it can be cut into. **×** is "
+        f"Times are {clock} in nanoseconds a triangle; a polygon counts as the triangles that it can be cut into. **×** is "
         "the ratio to a plain C loop, the *scatter kernel*, which adds each triangle's cross product to its three vertices "
         "and normalises (`float`, no checks, one thread, warm memory). Kernel, peer and umbilic take turns in one process, "
         f"and a ratio is the median over {about['rounds']} rounds of the ratios within a round. Cells of the large tables have "

@@ -88,13 +88,17 @@ class Program:
         samples = [([], []) for _ in self.tasks]
         for _ in range(self.rounds):
             for (*_, run), count, (ns, scatter) in zip(self.tasks, counts, samples):
-                share = 1e9 / self.mesh.triangle_count
-                scatter.append(share * seconds(reference, scatter_repeats))
-                ns.append(share * seconds(run, count))
+                scatter.append(seconds(reference, scatter_repeats))
+                ns.append(seconds(run, count))
         for (library, name, scalar, level, _), (ns, scatter) in zip(self.tasks, samples):
             head = dict(program=self.name, mesh=self.mesh_name, memory="warm", library=library, name=name, scalar=scalar)
-            tail = dict(level=level, threads=self.threads, triangles=self.mesh.triangle_count, ns=ns, scatter=scatter)
-            print(json.dumps(head | tail))
+            tail = dict(level=level, threads=self.threads, triangles=self.mesh.triangle_count)
+            print(json.dumps(head | tail | self.columns("ns", ns) | self.columns("scatter", scatter)))
+
+    def columns(self, key: str, samples: list[tuple[float, float]]) -> dict[str, list[float]]:
+        """Nanoseconds a triangle, by both clocks."""
+        scaled = [[1e9 / self.mesh.triangle_count * value for value in clock] for clock in zip(*samples)]
+        return dict(zip((key, f"cpu_{key}"), scaled))
 
     def print_peak(self):
         line = dict(program=self.name, mesh=self.mesh_name, triangles=self.mesh.triangle_count, peak=self.peak())
@@ -108,18 +112,19 @@ def cut(mesh: Mesh) -> Mesh:
     return Mesh(**fields | dict(offsets=None))
 
 
-def seconds(run: Callable[[], object], count: int) -> float:
-    """Of one run, as the mean of so many."""
-    start = time.perf_counter()
+def seconds(run: Callable[[], object], count: int) -> tuple[float, float]:
+    """Of one run, as the mean of so many: wall time, and CPU time of the process."""
+    start = time.perf_counter(), time.process_time()
     for _ in range(count):
         run()
-    return (time.perf_counter() - start) / count
+    end = time.perf_counter(), time.process_time()
+    return (end[0] - start[0]) / count, (end[1] - start[1]) / count
 
 
 def repeats(run: Callable[[], object]) -> int:
     """Warms something up, and tells how often it is to be run."""
-    first = seconds(run, 1)
-    again = first if first >= 10 * LONG_ENOUGH else seconds(run, 1)
+    first = seconds(run, 1)[0]
+    again = first if first >= 10 * LONG_ENOUGH else seconds(run, 1)[0]
     return min(1000, math.ceil(LONG_ENOUGH / max(again, 1e-9)))
 
 

@@ -11,10 +11,19 @@
 
 static const double LONG_ENOUGH = 0.003; /* seconds */
 
-static double now(void) {
+/* Seconds, by both clocks. */
+typedef struct moment {
+  double wall, cpu;
+} moment;
+
+static double read_clock(clockid_t clock) {
   struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(clock, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static moment now(void) {
+  return (moment){read_clock(CLOCK_MONOTONIC), read_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 typedef struct scatter_context {
@@ -28,16 +37,17 @@ static void run_scatter(void *context) {
 }
 
 /* Seconds of one run, as the mean of so many. */
-static double time_runs(void (*run)(void *), void *context, int repeats) {
-  double start = now();
+static moment time_runs(void (*run)(void *), void *context, int repeats) {
+  moment start = now();
   for (int i = 0; i < repeats; i++) run(context);
-  return (now() - start) / repeats;
+  moment end = now();
+  return (moment){(end.wall - start.wall) / repeats, (end.cpu - start.cpu) / repeats};
 }
 
 /* Warms something up, and tells how often it is to be run. */
 static int repeats_of(void (*run)(void *), void *context) {
-  double seconds = time_runs(run, context, 1);
-  if (seconds < 10 * LONG_ENOUGH) seconds = time_runs(run, context, 1);
+  double seconds = time_runs(run, context, 1).wall;
+  if (seconds < 10 * LONG_ENOUGH) seconds = time_runs(run, context, 1).wall;
   return seconds * 1000 > LONG_ENOUGH ? (int)ceil(LONG_ENOUGH / seconds) : 1000;
 }
 
@@ -50,24 +60,27 @@ static void bind_here(cpu_set_t *all) {
   sched_setaffinity(0, sizeof here, &here);
 }
 
-static void print_samples(const char *key, const double *samples, int count) {
-  printf(", \"%s\": [", key);
-  for (int i = 0; i < count; i++) printf("%s%.4g", i ? ", " : "", samples[i]);
-  printf("]");
+static void print_samples(const char *key, const moment *samples, int count, double scale) {
+  for (int cpu = 0; cpu < 2; cpu++) {
+    printf(", \"%s%s\": [", cpu ? "cpu_" : "", key);
+    for (int i = 0; i < count; i++) printf("%s%.4g", i ? ", " : "", scale * (cpu ? samples[i].cpu : samples[i].wall));
+    printf("]");
+  }
 }
 
-static void print_task(const bench *b, const mesh *m, const task *t, const double *samples, const double *scatter) {
+static void print_task(const bench *b, const mesh *m, const task *t, const moment *samples, const moment *scatter) {
+  double ns = 1e9 / (double)m->triangle_count;
   printf("{\"program\": \"%s\", \"mesh\": \"%s\", \"memory\": \"%s\"", b->program, b->mesh_name, b->memory);
   printf(", \"library\": \"%s\", \"name\": \"%s\", \"scalar\": \"%s\"", t->library, t->name, t->scalar);
   printf(", \"level\": \"%s\", \"threads\": %d, \"triangles\": %zu", t->level, t->threads, m->triangle_count);
-  print_samples("ns", samples, b->rounds);
-  print_samples("scatter", scatter, b->rounds);
+  print_samples("ns", samples, b->rounds, ns / t->share);
+  print_samples("scatter", scatter, b->rounds, ns);
   printf("}\n");
 }
 
 void time_tasks(const bench *b, const mesh *m, const task *tasks, size_t count) {
   size_t rounds = (size_t)b->rounds;
-  double *samples = allocate(count * rounds * sizeof *samples), *scatter = allocate(count * rounds * sizeof *scatter);
+  moment *samples = allocate(count * rounds * sizeof *samples), *scatter = allocate(count * rounds * sizeof *scatter);
   int *repeats = allocate(count * sizeof *repeats);
   scatter_context context = {m, allocate(m->vertex_count * 3 * sizeof(float))};
   int scatter_repeats = repeats_of(run_scatter, &context);
@@ -76,9 +89,8 @@ void time_tasks(const bench *b, const mesh *m, const task *tasks, size_t count) 
     for (size_t t = 0; t < count; t++) {
       cpu_set_t all;
       if (tasks[t].bound) bind_here(&all);
-      double ns = 1e9 / (double)m->triangle_count;
-      scatter[t * rounds + r] = ns * time_runs(run_scatter, &context, scatter_repeats);
-      samples[t * rounds + r] = ns / tasks[t].share * time_runs(tasks[t].run, tasks[t].context, repeats[t]);
+      scatter[t * rounds + r] = time_runs(run_scatter, &context, scatter_repeats);
+      samples[t * rounds + r] = time_runs(tasks[t].run, tasks[t].context, repeats[t]);
       if (tasks[t].bound) sched_setaffinity(0, sizeof all, &all);
     }
   for (size_t t = 0; t < count; t++) print_task(b, m, &tasks[t], samples + t * rounds, scatter + t * rounds);

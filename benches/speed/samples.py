@@ -20,8 +20,10 @@ def spread(values: list[float]) -> Spread:
 
 
 class Sample:
-    def __init__(self, line: dict):
-        self.line, self.ns, self.scatter = line, line["ns"], line["scatter"]
+    def __init__(self, line: dict, cpu: bool = False):
+        """By the clock on the wall, or by CPU time."""
+        self.line = line
+        self.ns, self.scatter = (line[f"cpu_{key}" if cpu else key] for key in ("ns", "scatter"))
 
     def time(self) -> Spread:
         """Nanoseconds a triangle."""
@@ -40,7 +42,9 @@ class Samples:
     def __init__(self, path: Path):
         lines = [json.loads(line) for line in path.read_text().splitlines()]
         self.about = next(line["about"] for line in lines if "about" in line)
-        self.tasks = [Sample(line) for line in lines if "ns" in line]
+        # On two threads there is no other way to tell; nor is there to compare one thread with two.
+        cpu = lambda line: self.about["cpu"] and line["threads"] == 1 and line["set"] != "threads"
+        self.tasks = [Sample(line, cpu(line)) for line in lines if "ns" in line]
         self.peaks = [line for line in lines if "peak" in line]
         self.agreements = [line for line in lines if "agreement" in line]
 

@@ -4,6 +4,7 @@
     make bench                          everything: some ten minutes
     make bench BENCH="--quick"          smaller meshes, fewer rounds; writes target/bench/benchmarks.md
     make bench BENCH="--only umbilic"   without the other libraries, or with one of them alone; likewise
+    make bench BENCH="--cpu-time"       on a machine that is busy with other things: one thread by CPU time, not wall time
     make bench BENCH="--page"           the page anew, from what was measured last
 
 Every library has a process for each mesh, in which its tasks, umbilic's and the kernel take turns (rounds.h, peer.py).
@@ -116,6 +117,7 @@ def measure(arguments: argparse.Namespace) -> list[dict]:
         "missing": [*bench.missing.values(), *notes],
         "meshes": {mesh.name: mesh.title for mesh in meshes},
         "rounds": bench.rounds,
+        "cpu": arguments.cpu_time,
         "others": load.others(),
     }
     return [{"about": about}, *bench.lines]
@@ -126,6 +128,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", choices=runs.TITLES)
     parser.add_argument("--rounds", type=int)
+    parser.add_argument("--cpu-time", action="store_true")
     parser.add_argument("--page", action="store_true")
     arguments = parser.parse_args()
     part = arguments.quick or arguments.only is not None

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from counterparts import COUNTERPARTS, NOTES
 from runs import PROGRAMS, TITLES
-from samples import Sample, Samples, Spread
+from samples import Sample, Samples, Spread, spread
 from targets import TARGETS
 
 METHOD_SETS = ("small", "torus", "quads")
@@ -71,7 +71,7 @@ def kernel(samples: Samples) -> list[str]:
     for name, title in samples.about["meshes"].items():
         found = samples.all(program="umbilic", set="normals", mesh=name)
         if found:
-            times = Sample({**found[0].line, "ns": [time for sample in found for time in sample.scatter]}).time()
+            times = spread([time for sample in found for time in sample.scatter])
             rows.append([title, str(found[0].line["triangles"]), show(times, "")])
     return table(["mesh", "triangles", "scatter kernel, ns a triangle"], rows)
 
@@ -196,7 +196,7 @@ def scaling(samples: Samples) -> list[str]:
     rows = []
     for mesh, triangles in sizes:
         every = [samples.find(set="scaling", mesh=mesh, name=name) for name in times]
-        kernel = Sample({**found[0].line, "ns": [ns for each in every if each for ns in each.scatter]}).time()
+        kernel = spread([ns for each in every if each for ns in each.scatter])
         peak = [samples.peak("umbilic", mesh, what) for what in ("topology", "least squares")]
         held = samples.handle(mesh)
         rows.append(
