@@ -35,9 +35,9 @@ class Vcg:
         for weight, ours in OURS.items():
             self.program.add_ours(ours, "f64")
             self.program.add("VCG", f"normals {weight}", "f64", lambda weight=weight: self.normals(weight))
-        self.program.add_ours("Meyer, on given normals", "f64")
-        self.program.add("VCG", "discrete mean curvature", "f64", self.discrete)
         if self.program.small():
+            self.program.add_ours("Meyer, on given normals", "f64")
+            self.program.add("VCG", "discrete mean curvature", "f64", self.discrete)
             self.program.add_ours("Taubin", "f64")
             self.program.add("VCG", "principal directions, Taubin", "f64", self.curvatures)
             self.program.add_ours("quadric", "f64")

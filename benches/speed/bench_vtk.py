@@ -52,8 +52,9 @@ class Vtk:
         add("VTK", "vtkPolyDataNormals, no splitting", "f32", self.polygon_normals)
         ours("angle defect", "f32")
         add("VTK", "vtkCurvatures, Gauss", "f32", lambda: self.curvatures("Gaussian"))
-        ours("normal cycle, on given normals", "f32")
-        add("VTK", "vtkCurvatures, mean", "f32", self.curvatures)
+        if self.program.small():
+            ours("normal cycle, on given normals", "f32")
+            add("VTK", "vtkCurvatures, mean", "f32", self.curvatures)
 
 
 peer.serve("vtk", Vtk)

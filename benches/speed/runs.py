@@ -61,7 +61,7 @@ def peer_runs(names: list[str]) -> list[Run]:
     found += [Run("cgal", name, "jets") for name in ("small", "torus")]
     for wheel in WHEELS:
         found += [Run(wheel, name, "all") for name in names]
-        found += [Run(wheel, name, "all", threads=2) for name in ("natural", "small")]
+        found += [Run(wheel, "natural", "all", threads=2)]
     return found
 
 
