@@ -30,7 +30,7 @@ pub(crate) struct AngleDefect;
 /// In single precision, where an area is not so small, in units in which the ring is about 1 across, that rounding would show.
 #[inline(always)]
 pub(crate) fn large_enough<V: Vector>(area: V) -> V::Mask {
-    let least = if V::Scalar::SINGLE { 1.0 / 64.0 } else { f64::NEG_INFINITY };
+    let least = if V::Scalar::SINGLE { 1.0 / 16.0 } else { f64::NEG_INFINITY };
     V::constant(least).lt(area)
 }
 

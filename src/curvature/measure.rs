@@ -95,7 +95,7 @@ impl<V: Vector> Measure<V> {
 pub(crate) struct OneRing<E>(std::marker::PhantomData<fn(E)>);
 
 /// A cell smaller than this, in units in which its ring is about 1 across, is not for single precision to judge.
-const SMALL: f64 = 1.0 / 64.0;
+const SMALL: f64 = 1.0 / 16.0;
 
 impl<E> OneRing<E> {
     /// The estimator.

@@ -19,8 +19,11 @@ use super::angle_defect::{defect, large_enough};
 use super::outputs::Local;
 use super::principal::Frame;
 use super::ring::RingEstimator;
-use crate::simd::{Mask, Vector, Vector3};
+use crate::simd::{Mask, Real, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces, Scratch};
+
+/// A mean curvature normal that is nearer the tangent plane than this leaves its sign to double precision.
+const SIDEWAYS: f64 = 1e-3;
 
 /// Meyer et al. 2003.
 pub(crate) struct Meyer;
@@ -64,13 +67,19 @@ impl RingEstimator for Meyer {
         let inverse = sums.area.reciprocal_or_zero();
         let half = V::constant(0.5);
         let length = sums.gradient.squared().sqrt() * half;
-        let integrated_mean = V::select(sums.gradient.dot(frame.normal).lt(V::zero()), -length, length);
+        let along = sums.gradient.dot(frame.normal);
+        let integrated_mean = V::select(along.lt(V::zero()), -length, length);
+        // In single precision, whether the sign is known.
+        let sideways = if V::Scalar::SINGLE { V::constant(SIDEWAYS) * length } else { -V::one() };
         Local {
             mean_normal: sums.gradient * half * inverse,
             area: sums.area,
             integrated_mean,
             integrated_gaussian: sums.defect,
-            usable: V::zero().lt(inverse).and(large_enough(sums.area)),
+            usable: V::zero()
+                .lt(inverse)
+                .and(large_enough(sums.area))
+                .and(sideways.lt(along.abs() + V::splat(V::Scalar::TINY))),
             ..Local::of_mean_and_gaussian(frame.normal, integrated_mean * inverse, sums.defect * inverse)
         }
     }

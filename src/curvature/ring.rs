@@ -3,7 +3,7 @@
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::Frame;
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
-use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans};
+use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, lengthened};
 use crate::topology::status;
 
 /// A curvature estimator over one-rings. What it adds up goes over all fans of a vertex.
@@ -66,9 +66,10 @@ impl OwnNormals<'_> {
             OwnNormals::None => Vector3::zero(),
             OwnNormals::Ring => *scratch.normal,
             OwnNormals::Rows(NormalRows::Double(rows)) => own_normals(rows, vertices),
-            OwnNormals::Rows(NormalRows::Single(rows)) => load_vectors(vertices, |vertex| {
-                [rows[vertex][0].into(), rows[vertex][1].into(), rows[vertex][2].into()]
-            }),
+            OwnNormals::Rows(NormalRows::Single(rows)) => {
+                let row = |vertex: usize| [rows[vertex][0].into(), rows[vertex][1].into(), rows[vertex][2].into()];
+                lengthened(load_vectors(vertices, row))
+            }
         }
     }
 }

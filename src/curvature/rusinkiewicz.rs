@@ -25,8 +25,8 @@ const NARROW: f64 = 1e-12;
 const OPPOSITE: f64 = -1.0 + 1e-6;
 
 /// As [`NARROW`] and [`OPPOSITE`], for what is left to double precision.
-const DOUBTFULLY_NARROW: f64 = 1.0 / 64.0;
-const DOUBTFULLY_OPPOSITE: f64 = 0.0;
+const DOUBTFULLY_NARROW: f64 = 1.0 / 32.0;
+const DOUBTFULLY_OPPOSITE: f64 = 0.25;
 
 /// Rusinkiewicz 2004.
 pub(crate) struct Rusinkiewicz;

@@ -223,7 +223,7 @@ pub(crate) fn edge<V: Vector>(
 }
 
 /// Edges whose tangential part, squared, is a smaller part than this are left to double precision.
-const STEEP: f64 = 1.0 / 16.0;
+const STEEP: f64 = 0.25;
 
 #[cfg(test)]
 mod tests {

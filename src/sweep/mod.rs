@@ -27,7 +27,7 @@ pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};
 use crate::parallel::{Claims, Run, for_each_chunk};
-use crate::simd::{Task, Vector, Vector3, Width, dispatch};
+use crate::simd::{Real, Task, Vector, Vector3, Width, dispatch};
 use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
 use calls::{AloneCalls, BlockCalls, Both, Calls};
@@ -403,7 +403,10 @@ impl<S: Coordinate> Sweep<'_, S> {
             Some(values) => {
                 let rings = self.topology.rings();
                 match values {
-                    NeighbourNormals::Single(values) => rings.load_values(values, block, corners, closed, normals),
+                    NeighbourNormals::Single(values) => {
+                        rings.load_values(values, block, corners, closed, normals);
+                        normals[..corners + 1].iter_mut().for_each(|normal| *normal = lengthened(*normal));
+                    }
                     NeighbourNormals::Double(values) => rings.load_values(values, block, corners, closed, normals),
                 }
                 &normals[..corners + 1]
@@ -530,7 +533,7 @@ impl<S: Coordinate> Sweep<'_, S> {
             let around = fan.neighbours.iter().chain(fan.neighbours.first().filter(|_| fan.closed));
             for &neighbour in around {
                 normals[count] = match values {
-                    NeighbourNormals::Single(values) => values.get(neighbour as usize).into(),
+                    NeighbourNormals::Single(values) => lengthened(values.get(neighbour as usize).into()),
                     NeighbourNormals::Double(values) => values.get(neighbour as usize).into(),
                 };
                 count += 1;
@@ -554,6 +557,15 @@ impl<S: Coordinate> Sweep<'_, S> {
         }
         (count, edges[..count].iter().fold(0.0, |extent, edge| edge.largest_component().max(extent)))
     }
+}
+
+/// A normal from single precision at length 1, to the precision of the lanes; single precision leaves it as it is.
+#[inline(always)]
+pub(crate) fn lengthened<V: Vector>(normal: Vector3<V>) -> Vector3<V> {
+    if V::Scalar::SINGLE {
+        return normal;
+    }
+    normal * normal.squared().sqrt().reciprocal_or_zero()
 }
 
 #[inline(always)]
