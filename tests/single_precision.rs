@@ -54,7 +54,6 @@ macro_rules! answers {
                 ..CurvatureOutputs::default()
             };
             curvatures(topology, &positions.into(), options, Run::default(), &outputs).unwrap();
-            drop(outputs);
             found
         }
     };
@@ -76,7 +75,6 @@ fn compare(mesh: &Mesh, method: Method, given: bool) -> (f64, usize) {
     let outputs = NormalOutputs { normal: Some(normals.as_mut_slice().into()), ..NormalOutputs::default() };
     let weight = if given { Weight::Angle } else { Weight::Conformal };
     vertex_normals(&topology, &positions[..].into(), weight, Run::default(), &outputs).unwrap();
-    drop(outputs);
     if given {
         // Given normals are brought to length one, and rounded.
         normals = normals
@@ -96,6 +94,7 @@ fn compare(mesh: &Mesh, method: Method, given: bool) -> (f64, usize) {
     let asked = options(if beforehand { VertexNormals::Given(rounded[..].into()) } else { computed });
     let expected = double(&topology, &positions, &asked, principal);
     let (mut worst, mut compared) = (0.0f64, 0);
+    #[expect(clippy::needless_range_loop, reason = "a vertex has a place in every row")]
     for vertex in 0..positions.len() {
         assert_eq!(found.status[vertex], expected.status[vertex], "{}, {method:?}, vertex {vertex}", mesh.name);
         let edge = shortest_edge(&topology, &wide, vertex);

@@ -78,6 +78,7 @@ impl OwnNormals<'_> {
 #[inline(always)]
 pub(crate) fn load_vectors<V: Vector>(vertices: &[u32], vector: impl Fn(usize) -> [f64; 3]) -> Vector3<V> {
     let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
+    #[expect(clippy::needless_range_loop, reason = "a lane is a column of every row")]
     for lane in 0..V::LANES {
         let vector = vector(*vertices.get(lane).unwrap_or(&vertices[0]) as usize);
         for axis in 0..3 {

@@ -7,13 +7,18 @@ use super::vector::{MAX_LANES, Mask, Vector, Vector3};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+// Operations of more than one instruction come as `|operand| expression`, which is pasted and not called: a closure would lack
+// the CPU features, and not be inlined everywhere.
+//
 // SAFETY of every `unsafe` block in this macro: the intrinsics need only the CPU features of their level, and
 // these types are reached only through `super::dispatch`, which has checked them; `from_lanes` and `to_lanes`
 // access arrays of MAX_LANES ≥ LANES scalars with unaligned loads and stores.
 macro_rules! row {
     ($name:ident, $register:ty, $scalar:ty, $lanes:expr, $mask:ident,
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $min:ident, $max:ident,
-     $load:ident, $store:ident, $abs:expr, $negate:expr, $less:expr, $select:expr, $mirror:expr, $gather:ident) => {
+     $load:ident, $store:ident, |$abs_of:ident| $abs:expr, |$negated:ident| $negate:expr,
+     |$less_a:ident, $less_b:ident| $less:expr, |$where:ident, $yes:ident, $no:ident| $select:expr,
+     |$mirrored:ident| $mirror:expr, $gather:ident) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $name($register);
@@ -54,8 +59,9 @@ macro_rules! row {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
+                let $negated = self.0;
                 // SAFETY: see the macro.
-                $name(unsafe { $negate(self.0) })
+                $name(unsafe { $negate })
             }
         }
         impl Vector for $name {
@@ -87,8 +93,9 @@ macro_rules! row {
             }
             #[inline(always)]
             fn abs(self) -> Self {
+                let $abs_of = self.0;
                 // SAFETY: see the macro.
-                $name(unsafe { $abs(self.0) })
+                $name(unsafe { $abs })
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
@@ -102,18 +109,21 @@ macro_rules! row {
             }
             #[inline(always)]
             fn lt(self, other: Self) -> $mask {
+                let ($less_a, $less_b) = (self.0, other.0);
                 // SAFETY: see the macro.
-                $mask(unsafe { $less(self.0, other.0) })
+                $mask(unsafe { $less })
             }
             #[inline(always)]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                let ($where, $yes, $no) = (mask.0, yes.0, no.0);
                 // SAFETY: see the macro.
-                $name(unsafe { $select(mask.0, yes.0, no.0) })
+                $name(unsafe { $select })
             }
             #[inline(always)]
             fn unit_scale(self) -> Self {
+                let $mirrored = self.0;
                 // SAFETY: see the macro.
-                $name(unsafe { $mirror(self.0) })
+                $name(unsafe { $mirror })
             }
             #[inline(always)]
             unsafe fn gather<const WIDE: bool>(
@@ -130,41 +140,45 @@ macro_rules! row {
 }
 
 macro_rules! mask {
-    ($name:ident, $register:ty, $and:expr, $or:expr, $bits:expr) => {
+    ($name:ident, $register:ty, |$and_a:ident, $and_b:ident| $and:expr, |$or_a:ident, $or_b:ident| $or:expr,
+     |$mask:ident| $bits:expr) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $name($register);
         impl Mask for $name {
             #[inline(always)]
             fn and(self, other: Self) -> Self {
+                let ($and_a, $and_b) = (self.0, other.0);
                 // SAFETY: see `row!`.
                 #[allow(unused_unsafe)]
-                $name(unsafe { $and(self.0, other.0) })
+                $name(unsafe { $and })
             }
             #[inline(always)]
             fn or(self, other: Self) -> Self {
+                let ($or_a, $or_b) = (self.0, other.0);
                 // SAFETY: see `row!`.
                 #[allow(unused_unsafe)]
-                $name(unsafe { $or(self.0, other.0) })
+                $name(unsafe { $or })
             }
             #[inline(always)]
             fn bits(self) -> u32 {
+                let $mask = self.0;
                 // SAFETY: see `row!`.
                 #[allow(unused_unsafe)]
                 unsafe {
-                    $bits(self.0) as u32
+                    $bits as u32
                 }
             }
         }
     };
 }
 
-mask!(M32x4, __m128, _mm_and_ps, _mm_or_ps, _mm_movemask_ps);
-mask!(M64x2, __m128d, _mm_and_pd, _mm_or_pd, _mm_movemask_pd);
-mask!(M32x8, __m256, _mm256_and_ps, _mm256_or_ps, _mm256_movemask_ps);
-mask!(M64x4, __m256d, _mm256_and_pd, _mm256_or_pd, _mm256_movemask_pd);
-mask!(M32x16, __mmask16, |a: u16, b: u16| a & b, |a: u16, b: u16| a | b, |a: u16| a);
-mask!(M64x8, __mmask8, |a: u8, b: u8| a & b, |a: u8, b: u8| a | b, |a: u8| a);
+mask!(M32x4, __m128, |a, b| _mm_and_ps(a, b), |a, b| _mm_or_ps(a, b), |mask| _mm_movemask_ps(mask));
+mask!(M64x2, __m128d, |a, b| _mm_and_pd(a, b), |a, b| _mm_or_pd(a, b), |mask| _mm_movemask_pd(mask));
+mask!(M32x8, __m256, |a, b| _mm256_and_ps(a, b), |a, b| _mm256_or_ps(a, b), |mask| _mm256_movemask_ps(mask));
+mask!(M64x4, __m256d, |a, b| _mm256_and_pd(a, b), |a, b| _mm256_or_pd(a, b), |mask| _mm256_movemask_pd(mask));
+mask!(M32x16, __mmask16, |a, b| a & b, |a, b| a | b, |mask| mask);
+mask!(M64x8, __mmask8, |a, b| a & b, |a, b| a | b, |mask| mask);
 
 // The largest power of two whose reciprocal is normal, the exponent field, and its mirror: see
 // `Real::inverse_power_of_two`, whose bits these reproduce.

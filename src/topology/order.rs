@@ -74,6 +74,7 @@ impl<'a, const WORDS: usize> Order<'a, '_, '_, WORDS> {
                 _ => self.follow::<SLOTS>(block, &counts, &mut chains),
             }
             self.rings.reserve(BLOCK * SLOTS)?;
+            #[expect(clippy::needless_range_loop, reason = "a lane is a column of every row")]
             for lane in 0..BLOCK.min(vertex_count - block * BLOCK) {
                 let corners = counts[lane] as usize;
                 let class = if chains.failed[lane] == 0 {

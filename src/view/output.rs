@@ -139,18 +139,18 @@ impl<'a, const N: usize> Output<'a, N> {
     #[inline(always)]
     fn write_single(&self, index: usize, value: [f32; N]) {
         let element = self.element(index).cast::<u32>();
-        for axis in 0..N {
+        for (axis, x) in value.iter().enumerate() {
             // SAFETY: `N` aligned f32 start at the element, in memory that is ours to write.
-            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(value[axis].to_bits(), Relaxed);
+            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
         }
     }
 
     #[inline(always)]
     fn write_double(&self, index: usize, value: [f64; N]) {
         let element = self.element(index).cast::<u64>();
-        for axis in 0..N {
+        for (axis, x) in value.iter().enumerate() {
             // SAFETY: `N` aligned f64 start at the element, in memory that is ours to write.
-            unsafe { store_double(element.add(axis), value[axis].to_bits()) };
+            unsafe { store_double(element.add(axis), x.to_bits()) };
         }
     }
 }

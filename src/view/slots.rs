@@ -121,9 +121,12 @@ impl<const WORDS: usize> SlotsPart<'_, WORDS> {
             for word in 0..WORDS {
                 for slot in 0..M {
                     let value = lines[lane][word][slot];
-                    // SAFETY: a slot below its vertex's count has been written.
-                    let there = slot < counts[lane] as usize;
-                    rows[word][slot][lane] = if there { unsafe { value.assume_init() } } else { u32::MAX };
+                    rows[word][slot][lane] = if slot < counts[lane] as usize {
+                        // SAFETY: a slot below its vertex's count has been written.
+                        unsafe { value.assume_init() }
+                    } else {
+                        u32::MAX
+                    };
                 }
             }
         }
