@@ -281,7 +281,7 @@ struct Ball {
 impl Gather {
     fn new(topology: &Topology, region: Region) -> Result<Self, Error> {
         Ok(match region {
-            Region::Rings(rings) => Gather::Rings { rings, neighbourhood: Box::new(Neighbourhood::new()) },
+            Region::Rings(rings) => Gather::Rings { rings, neighbourhood: Box::new(Neighbourhood::new(topology)?) },
             Region::Ball(radius) => Gather::Ball(Ball::new(topology, radius)?),
         })
     }

@@ -81,7 +81,7 @@ pub(crate) fn learn(
     let noise_of = |part: f64| (part * edge_length).clamp(f64::from_bits(1), f64::MAX);
     let unknown = AdaptiveModel { edge_length, noise: noise_of(LEAST_NOISE), ..AdaptiveModel::UNKNOWN };
 
-    let mut neighbourhood = Neighbourhood::new();
+    let mut neighbourhood = Neighbourhood::new(topology)?;
     let candidates: Vec<u32> = spaced(topology.vertex_count(), 4 * MOST_SAMPLED)
         .filter(|&vertex| known(vertex))
         .map(|vertex| vertex as u32)

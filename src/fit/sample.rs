@@ -83,8 +83,8 @@ impl PatchQuantity for Collector<'_> {
         Some(&self.around.edge_lengths)
     }
     #[inline(always)]
-    fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        self.around.choose(vertex, found, chosen)
+    fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        self.around.choose::<V>(vertex, found, chosen)
     }
 
     #[inline(always)]

@@ -4,8 +4,10 @@
 //! is no spike. A vertex that may be on a crease keeps its first ring, so that the fit shows whether it is; and so does one with too few
 //! neighbours otherwise.
 
+use crate::simd::{MAX_LANES, Mask, Vector, Vector3};
 use crate::sweep::Counts;
 use crate::topology::{Neighbourhood, Topology};
+use crate::view::StridedPoints;
 use glam::DVec3;
 
 /// The cosine of the largest angle between the one-ring normals of a vertex and of a neighbour that counts.
@@ -23,6 +25,8 @@ pub(crate) struct Surroundings {
     pub edge_lengths: Vec<f64>,
     /// [`Surroundings::SHARP`], [`Surroundings::SPIKE`] and [`Surroundings::BESIDE_SPIKE`].
     pub marks: Vec<u8>,
+    /// Whether any vertex is marked a spike.
+    pub has_spikes: bool,
 }
 
 impl Surroundings {
@@ -41,8 +45,9 @@ impl Surroundings {
 
     /// Fills `chosen` with the neighbours on the same side of any crease.
     #[inline(always)]
-    pub fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        let own = DVec3::from(self.normals[vertex as usize]);
+    pub fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        let [x, y, z] = self.normals[vertex as usize].map(V::splat);
+        let own = Vector3 { x, y, z };
         let rings = self.may_be_creased(vertex as usize) as usize;
         let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
         if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
@@ -51,24 +56,42 @@ impl Surroundings {
     /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1, but for vertices with one of the `unwanted`
     /// marks.
     #[inline(always)]
-    fn choose_beyond(
+    fn choose_beyond<V: Vector<Scalar = f64>>(
         &self,
-        own: DVec3,
+        own: Vector3<V>,
         found: &Neighbourhood,
         rings: usize,
         unwanted: u8,
         chosen: &mut [u32],
     ) -> Counts {
+        let normals = StridedPoints::from(self.normals.as_slice());
+        let all = (1u32 << V::LANES) - 1;
         let mut counts = found.counts_within();
         let mut count = 0;
         let mut first = 0;
         for (ring, ring_count) in counts.iter_mut().enumerate() {
             let last = *ring_count as usize;
-            for &neighbour in &found.vertices()[first..last] {
-                chosen[count] = neighbour;
-                let near = own.dot(self.normals[neighbour as usize].into()) >= SAME_SIDE;
-                let wanted = self.marks[neighbour as usize] & unwanted == 0;
-                count += ((near || ring < rings) && wanted) as usize;
+            for some in found.vertices()[first..last].chunks(V::LANES) {
+                let mut row = [some[0]; MAX_LANES];
+                row[..some.len()].copy_from_slice(some);
+                let mut wanted = all;
+                if ring >= rings {
+                    wanted = !own.dot(normals.lanes::<V>(&row)).lt(V::constant(SAME_SIDE)).bits() & all;
+                }
+                if self.has_spikes && unwanted != 0 {
+                    for (lane, &neighbour) in some.iter().enumerate() {
+                        wanted &= !(((self.marks[neighbour as usize] & unwanted != 0) as u32) << lane);
+                    }
+                }
+                if wanted == all {
+                    chosen[count..count + some.len()].copy_from_slice(some);
+                    count += some.len();
+                } else {
+                    for (lane, &neighbour) in some.iter().enumerate() {
+                        chosen[count] = neighbour;
+                        count += (wanted >> lane & 1) as usize;
+                    }
+                }
             }
             *ring_count = count as u32;
             first = last;

@@ -168,8 +168,8 @@ impl<S: Sink> PatchQuantity for Jets<'_, S> {
         self.fit.noise
     }
     #[inline(always)]
-    fn choose(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        self.around.choose(vertex, found, chosen)
+    fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+        self.around.choose::<V>(vertex, found, chosen)
     }
 
     #[inline(always)]

@@ -38,7 +38,12 @@ pub(super) fn surroundings(
     run: &mut Run<'_>,
 ) -> Result<Surroundings, Error> {
     let count = topology.vertex_count();
-    let mut found = Surroundings { normals: zeroed(count)?, edge_lengths: zeroed(count)?, marks: zeroed(count)? };
+    let mut found = Surroundings {
+        normals: zeroed(count)?,
+        edge_lengths: zeroed(count)?,
+        marks: zeroed(count)?,
+        has_spikes: false,
+    };
     let quantity = Look {
         normal: found.normals.as_mut_slice().into(),
         edge_length: found.edge_lengths.as_mut_slice().into(),
@@ -47,6 +52,7 @@ pub(super) fn surroundings(
     sweep(topology, points, run, true, &quantity)?;
     for vertex in 0..count {
         if found.marks[vertex] & Surroundings::SPIKE != 0 {
+            found.has_spikes = true;
             for &neighbour in topology.ring(vertex) {
                 found.marks[neighbour as usize] |= Surroundings::BESIDE_SPIKE;
             }

@@ -157,14 +157,6 @@ pub(crate) fn as_lanes<V: Vector>(numbers: &mut [V::Scalar]) -> &mut [V] {
     unsafe { numbers.align_to_mut::<V>().1 }
 }
 
-/// The scalars of rows of lanes, lane after lane and row after row.
-#[inline(always)]
-pub(crate) fn as_scalars<V: Vector>(rows: &mut [V]) -> &mut [V::Scalar] {
-    const { assert!(size_of::<V>() == V::LANES * size_of::<V::Scalar>()) };
-    // SAFETY: as in `as_lanes`; a vector is aligned at least as its scalar.
-    unsafe { std::slice::from_raw_parts_mut(rows.as_mut_ptr().cast(), rows.len() * V::LANES) }
-}
-
 /// No vector has more lanes than this.
 pub(crate) const MAX_LANES: usize = 16;
 

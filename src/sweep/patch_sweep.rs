@@ -16,7 +16,7 @@ use super::check_counts;
 use super::patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity};
 use crate::error::Error;
 use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
-use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, as_scalars, dispatch};
+use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, dispatch};
 use crate::topology::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood, Topology};
 use crate::view::{Coordinate, PointArray, Points, StridedPoints, zeroed};
 use std::sync::{Mutex, PoisonError};
@@ -60,7 +60,7 @@ fn check_points(
     if vertices.len() > topology.vertex_count() / 64 && points.check_finite().is_ok() {
         return Ok(());
     }
-    let mut neighbourhood = Neighbourhood::new();
+    let mut neighbourhood = Neighbourhood::new(topology)?;
     for &vertex in vertices {
         for &needed in [vertex].iter().chain(neighbourhood.gather(topology, vertex, rings)) {
             if !points.get(needed as usize).is_finite() {
@@ -84,7 +84,7 @@ fn sweep_points<Q: PatchQuantity, S: Coordinate>(
     let mut spaces = Vec::new();
     for _ in 0..thread_count(run.threads, chunks) {
         spaces.try_reserve(1)?;
-        spaces.push(Space::new(quantity)?);
+        spaces.push(Space::new(topology, quantity)?);
     }
     let spaces = Mutex::new(spaces);
     let sweep = PatchSweep { topology, points, vertices, quantity };
@@ -103,14 +103,22 @@ struct Space {
     numbers: Vec<f64>,
     /// The neighbourhoods of a group.
     neighbours: Vec<u32>,
+    /// Those of a block, a vertex a lane.
+    rows: Vec<[u32; MAX_LANES]>,
+    neighbourhood: Neighbourhood,
 }
 
 impl Space {
-    fn new<Q: PatchQuantity>(quantity: &Q) -> Result<Self, Error> {
+    fn new<Q: PatchQuantity>(topology: &Topology, quantity: &Q) -> Result<Self, Error> {
         let coordinates = if Q::NEIGHBOUR_NORMALS { 6 } else { 3 } + quantity.values().is_some() as usize;
         // One row more, since the first may not start where a vector can.
         let rows = coordinates * MAX_NEIGHBOURS + quantity.scratch(MAX_NEIGHBOURS) + 1;
-        Ok(Space { numbers: zeroed(rows * DOUBLE_LANES)?, neighbours: zeroed(GROUP * MAX_NEIGHBOURS)? })
+        Ok(Space {
+            numbers: zeroed(rows * DOUBLE_LANES)?,
+            neighbours: zeroed(GROUP * MAX_NEIGHBOURS)?,
+            rows: zeroed(MAX_NEIGHBOURS)?,
+            neighbourhood: Neighbourhood::new(topology)?,
+        })
     }
 }
 
@@ -147,7 +155,6 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
     #[inline(always)]
     fn run<W: Width>(self) {
         let Worker { sweep, claims, mut space } = self;
-        let mut neighbourhood = Neighbourhood::new();
         let mut group = [Member { vertex: 0, start: 0, counts: [0; 4], widened: false }; GROUP];
         while let Some(chunk) = claims.next() {
             let first = chunk * GROUP;
@@ -161,8 +168,9 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                     sweep.quantity.isolated(vertex as usize);
                     continue;
                 }
-                let widened = sweep.gather(vertex, &mut neighbourhood);
-                let counts = sweep.quantity.choose(vertex, &neighbourhood, &mut space.neighbours[end..]);
+                let widened = sweep.gather(vertex, &mut space.neighbourhood);
+                let chosen = &mut space.neighbours[end..];
+                let counts = sweep.quantity.choose::<W::Double>(vertex, &space.neighbourhood, chosen);
                 group[count] = Member { vertex, start: end as u32, counts, widened };
                 (count, end) = (count + 1, end + group[count].count());
             }
@@ -184,7 +192,7 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                 count = left;
             }
             for &member in &sorted[..count] {
-                sweep.alone(group[member as usize].vertex, &mut neighbourhood, &mut space);
+                sweep.alone(group[member as usize].vertex, &mut space);
             }
         }
     }
@@ -274,37 +282,51 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         let (points, rest) = as_lanes::<V>(&mut space.numbers).split_at_mut(3 * length);
         let (normals, rest) = rest.split_at_mut(if Q::NEIGHBOUR_NORMALS { 3 * length } else { 0 });
         let (values, scratch) = rest.split_at_mut(if all_values.is_some() { length } else { 0 });
-        let mut vertices = [0u32; MAX_LANES];
+        // Lanes beyond the block have its first vertex, and no points. A point that a lane does not have is the vertex itself.
+        let mut vertices = [member(0).vertex; MAX_LANES];
         let mut counts = [[0.0; MAX_LANES]; 4];
-        let mut own = [[0.0; MAX_LANES]; 3];
         let mut widened = 0;
+        let rows = &mut space.rows[..length];
         for lane in 0..V::LANES {
-            let (vertex, found): (u32, &[u32]) = if lane < block.len() {
-                let &Member { vertex, start, counts: found, widened: wide } = member(lane);
+            let mut found = &[][..];
+            if lane < block.len() {
+                let &Member { vertex, start, counts: own, widened: wide } = member(lane);
+                vertices[lane] = vertex;
                 widened |= (wide as u32) << lane;
-                for (row, count) in counts.iter_mut().zip(found) {
+                for (row, count) in counts.iter_mut().zip(own) {
                     row[lane] = count as f64;
                 }
-                for (axis, x) in self.quantity.normals()[vertex as usize].into_iter().enumerate() {
-                    own[axis][lane] = x;
-                }
-                (vertex, &space.neighbours[start as usize..][..found[3] as usize])
-            } else {
-                (member(0).vertex, &[])
-            };
-            vertices[lane] = vertex;
-            self.load_points::<V>(vertex, found, 1.0, lane, as_scalars(points));
-            if Q::NEIGHBOUR_NORMALS {
-                self.load_normals::<V>(found, lane, as_scalars(normals));
+                found = &space.neighbours[start as usize..][..own[3] as usize];
             }
-            if let Some(all) = all_values {
-                load_values::<V>(all, found, lane, as_scalars(values));
-            }
+            let (there, beyond) = rows.split_at_mut(found.len());
+            there.iter_mut().zip(found).for_each(|(row, &neighbour)| row[lane] = neighbour);
+            beyond.iter_mut().for_each(|row| row[lane] = vertices[lane]);
         }
-        let scale = fit_to_unit(points);
-        let normal = Vector3::from_lanes(&own);
+        let full = if block.len() == V::LANES { full } else { 0 };
         let [within @ .., count] = counts.map(|row| V::from_lanes(&row));
         let most_within = [0, 1, 2].map(|ring| counts[ring].iter().fold(0.0f64, |most, &x| most.max(x)) as usize);
+        let all_normals = StridedPoints::from(self.quantity.normals());
+        let normal = all_normals.lanes::<V>(&vertices);
+        let centre = self.points.lanes::<V>(&vertices);
+        let mut extent = V::zero();
+        for (row, indices) in rows.iter().enumerate() {
+            let point = self.points.lanes::<V>(indices) - centre;
+            extent = point.largest_component().max(extent);
+            (points[3 * row], points[3 * row + 1], points[3 * row + 2]) = (point.x, point.y, point.z);
+            // Normals and values are zero where there is no point.
+            let there = V::constant(row as f64).lt(count);
+            if Q::NEIGHBOUR_NORMALS {
+                let normal = all_normals.lanes::<V>(indices);
+                for (axis, x) in [normal.x, normal.y, normal.z].into_iter().enumerate() {
+                    normals[3 * row + axis] = V::select(there, x, V::zero());
+                }
+            }
+            if let Some(all) = all_values {
+                let value = V::from_lanes(&indices.map(|index| all[index as usize]));
+                values[row] = V::select(there, value, V::zero());
+            }
+        }
+        let scale = fit_to_unit(points, extent);
         let patch = Patch { points, normals, values, normal, count, full, within, most_within, rings: &[] };
         // In a function of its own, which positions of either precision share.
         let (quantity, vertices, mut untrusted) = (self.quantity, &vertices[..block.len()], 0);
@@ -323,12 +345,13 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
 
     /// The vertex-by-vertex path.
     #[inline(never)]
-    fn alone(&self, vertex: u32, neighbourhood: &mut Neighbourhood, space: &mut Space) {
+    fn alone(&self, vertex: u32, space: &mut Space) {
+        let Space { numbers, neighbourhood, .. } = space;
         let mut widened = self.gather(vertex, neighbourhood);
         loop {
             let last =
                 neighbourhood.is_complete() || neighbourhood.rings() >= self.quantity.rings() + MOST_EXTRA_RINGS;
-            if self.alone_in(vertex, neighbourhood, widened, last, &mut space.numbers) || last {
+            if self.alone_in(vertex, neighbourhood, widened, last, numbers) || last {
                 return;
             }
             // If nothing was added, the neighbourhood is complete and the next attempt the last.
@@ -345,7 +368,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         numbers: &mut [f64],
     ) -> bool {
         let mut chosen = [0; MAX_NEIGHBOURS];
-        let counts = self.quantity.choose(vertex, neighbourhood, &mut chosen);
+        let counts = self.quantity.choose::<f64>(vertex, neighbourhood, &mut chosen);
         let found = &chosen[..counts[3] as usize];
         let all_values = self.quantity.values();
         let (points, rest) = numbers.split_at_mut(3 * found.len());
@@ -353,18 +376,21 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         let (values, scratch) = rest.split_at_mut(if all_values.is_some() { found.len() } else { 0 });
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact for them.
         let mut factor = 1.0;
-        self.load_points::<f64>(vertex, found, factor, 0, points);
+        self.load_points(vertex, found, factor, points);
         if points.iter().any(|x| x.abs() == f64::INFINITY) {
             factor = 0.25;
-            self.load_points::<f64>(vertex, found, factor, 0, points);
+            self.load_points(vertex, found, factor, points);
         }
-        if Q::NEIGHBOUR_NORMALS {
-            self.load_normals::<f64>(found, 0, normals);
+        for (index, &neighbour) in found.iter().enumerate() {
+            if Q::NEIGHBOUR_NORMALS {
+                normals[3 * index..][..3].copy_from_slice(&self.quantity.normals()[neighbour as usize]);
+            }
+            if let Some(all) = all_values {
+                values[index] = all[neighbour as usize];
+            }
         }
-        if let Some(all) = all_values {
-            load_values::<f64>(all, found, 0, values);
-        }
-        let scale = fit_to_unit(points);
+        let extent = points.iter().fold(0.0, |extent, x| Vector::max(x.abs(), extent));
+        let scale = fit_to_unit(points, extent);
         let [x, y, z] = self.quantity.normals()[vertex as usize];
         let count = found.len();
         let mut rings = [count; MAX_RINGS + 1];
@@ -377,59 +403,18 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         self.quantity.alone(vertex as usize, &patch, scale * factor, widened, last, scratch)
     }
 
-    /// Fills a lane of `points` with the vectors from a vertex to `found`, each position multiplied by `factor` first, and
-    /// with zeros after them.
-    #[inline(always)]
-    fn load_points<V: Vector<Scalar = f64>>(
-        &self,
-        vertex: u32,
-        found: &[u32],
-        factor: f64,
-        lane: usize,
-        points: &mut [f64],
-    ) {
+    /// Fills `points` with the vectors from a vertex to `found`, each position multiplied by `factor` first.
+    fn load_points(&self, vertex: u32, found: &[u32], factor: f64, points: &mut [f64]) {
         let centre = self.points.get(vertex as usize) * factor;
-        let mut rows = points.chunks_exact_mut(3 * V::LANES);
-        for (row, &neighbour) in rows.by_ref().zip(found) {
-            let edge = self.points.get(neighbour as usize) * factor - centre;
-            (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = (edge.x, edge.y, edge.z);
+        for (point, &neighbour) in points.chunks_exact_mut(3).zip(found) {
+            point.copy_from_slice(&(self.points.get(neighbour as usize) * factor - centre).to_array());
         }
-        clear_lane::<V>(points, lane, found.len());
-    }
-
-    /// As [`PatchSweep::load_points`], with normals.
-    #[inline(always)]
-    fn load_normals<V: Vector<Scalar = f64>>(&self, found: &[u32], lane: usize, normals: &mut [f64]) {
-        let all = self.quantity.normals();
-        for (row, &neighbour) in normals.chunks_exact_mut(3 * V::LANES).zip(found) {
-            (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = all[neighbour as usize].into();
-        }
-        clear_lane::<V>(normals, lane, found.len());
     }
 }
 
-/// Fills a lane of `values` with those of `found`, and with zeros after them.
+/// Multiplies each lane by the power of two that brings its largest component, `extent`, to between 1 and 4; answers with it.
 #[inline(always)]
-fn load_values<V: Vector>(all: &[f64], found: &[u32], lane: usize, values: &mut [f64]) {
-    let mut rows = values.chunks_exact_mut(V::LANES);
-    for (row, &neighbour) in rows.by_ref().zip(found) {
-        row[lane] = all[neighbour as usize];
-    }
-    rows.for_each(|row| row[lane] = 0.0);
-}
-
-/// Sets a lane's points from `first` on to zero.
-#[inline(always)]
-fn clear_lane<V: Vector>(points: &mut [f64], lane: usize, first: usize) {
-    for row in points.chunks_exact_mut(3 * V::LANES).skip(first) {
-        (row[lane], row[V::LANES + lane], row[2 * V::LANES + lane]) = (0.0, 0.0, 0.0);
-    }
-}
-
-/// Multiplies each lane by the power of two that brings its largest component to between 1 and 4; answers with it.
-#[inline(always)]
-fn fit_to_unit<V: Vector<Scalar = f64>>(points: &mut [V]) -> V {
-    let extent = points.iter().fold(V::zero(), |extent, x| x.abs().max(extent));
+fn fit_to_unit<V: Vector<Scalar = f64>>(points: &mut [V], extent: V) -> V {
     let scale = extent.unit_scale();
     points.iter_mut().for_each(|x| *x = *x * scale);
     scale

@@ -9,12 +9,17 @@
 //! subset is looked at, which depends on that vertex or face alone; and a gather looks at no more than [`MOST_LOOKS`]
 //! entries. Where any of these cuts a neighbourhood short, it is what has been found so far.
 //!
-//! Which vertices are in it already is asked of a small hash table that stays in the first-level cache. Its entries carry
-//! the number of the gather that wrote them, so it is never cleared.
+//! **In two steps.** The entries of many vertices are put into one row first, then those that are new are kept. The first step waits
+//! for memory only, and for many vertices at a time; neither branches on what a CPU cannot guess: how long a ring is, and whether
+//! a vertex is new. Which are, says the number of the gather that met a vertex last. Of a shuffled mesh these two bytes a vertex
+//! stay in cache where positions do not.
 //!
-//! Cost: an entry a look; no memory of the mesh's size, and none from the heap.
+//! Cost: an entry a look; two bytes a vertex of the mesh, of which only pages are touched where neighbourhoods are.
 
 use super::{NO_FACE, Polygons, Topology};
+use crate::error::Error;
+use crate::view::{RingClass, zeroed};
+use std::ops::Range;
 
 /// A neighbourhood has no more vertices than this, the vertex itself not counted.
 pub(crate) const MAX_NEIGHBOURS: usize = 255;
@@ -28,22 +33,29 @@ const MOST_ENTRIES: usize = 64;
 /// Of a face with more corners than this, as many evenly spaced ones are looked at.
 const MOST_CORNERS: usize = 32;
 
-/// A gather looks at no more entries than this, give or take one vertex's.
+/// A gather looks at no more entries than this, give or take a row.
 const MOST_LOOKS: usize = 32 * MAX_NEIGHBOURS;
 
-/// Slots of the hash table: a power of two, and more than twice what a gather puts into it before it notices that it is
-/// full.
-const SLOTS: usize = 1024;
-const SHIFT: u32 = 32 - SLOTS.trailing_zeros();
-const _: () = assert!(SLOTS > 2 * (MAX_NEIGHBOURS + 1 + MOST_ENTRIES));
+/// Entries are put in a row up to this many, or one vertex's more.
+const ROW: usize = 512;
+
+/// Rings of no more entries than this are copied at this length, whatever is behind them.
+const COPIED: usize = 8;
 
 /// The neighbourhood of one vertex after the other; its tables are reused.
 pub(crate) struct Neighbourhood {
-    /// The gather that wrote the entry, and the vertex.
-    table: [u64; SLOTS],
-    gather: u32,
+    /// The gather that met each vertex last.
+    met: Vec<u16>,
+    gather: u16,
+    /// Whether it met those that are members; a neighbourhood of one ring need not know.
+    marked: bool,
+    /// Entries that were not looked at yet.
+    row: [u32; ROW + MOST_ENTRIES + 8],
+    waiting: usize,
+    /// 1 for each that is met for the first time.
+    new: [u8; ROW + MOST_ENTRIES + 8],
     /// The vertex itself, then ring after ring; with room for what is found before it is noticed to be too much.
-    members: [u32; MAX_NEIGHBOURS + 2 + MOST_ENTRIES],
+    members: [u32; MAX_NEIGHBOURS + 2 + ROW + MOST_ENTRIES + 8],
     count: usize,
     /// Where each ring ends in `members`; the zeroth is the vertex itself.
     ends: [usize; MAX_RINGS + 1],
@@ -53,17 +65,25 @@ pub(crate) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    pub(crate) fn new() -> Self {
-        Neighbourhood {
-            table: [0; SLOTS],
+    /// For vertices of this topology.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(crate) fn new(topology: &Topology) -> Result<Self, Error> {
+        Ok(Neighbourhood {
+            met: zeroed(topology.vertex_count())?,
             gather: 0,
-            members: [0; MAX_NEIGHBOURS + 2 + MOST_ENTRIES],
+            marked: false,
+            row: [0; ROW + MOST_ENTRIES + 8],
+            waiting: 0,
+            new: [0; ROW + MOST_ENTRIES + 8],
+            members: [0; MAX_NEIGHBOURS + 2 + ROW + MOST_ENTRIES + 8],
             count: 0,
             ends: [0; MAX_RINGS + 1],
             rings: 0,
             looks: 0,
             full: false,
-        }
+        })
     }
 
     /// Gathers up to `rings` rings around a vertex; answers with their vertices, without the vertex itself.
@@ -74,12 +94,19 @@ impl Neighbourhood {
     pub(crate) fn gather(&mut self, topology: &Topology, vertex: u32, rings: usize) -> &[u32] {
         self.gather = self.gather.wrapping_add(1);
         if self.gather == 0 {
-            self.table = [0; SLOTS];
+            self.met.fill(0);
             self.gather = 1;
         }
-        (self.count, self.rings, self.looks, self.full) = (0, 0, 0, false);
-        self.count = self.insert(vertex, 0);
+        (self.count, self.rings, self.looks, self.full, self.marked) = (1, 0, 0, false, false);
+        self.members[0] = vertex;
         self.ends[0] = 1;
+        let closed = matches!(topology.rings().class(vertex as usize), RingClass::Lanes { closed: true, .. });
+        if rings > 0 && closed && topology.polygons().is_none() {
+            // The first ring of a closed fan of triangles, in which no vertex is twice.
+            self.looks = copy_ring(topology, vertex, &mut self.members[1..]);
+            self.count = 1 + self.looks;
+            (self.rings, self.ends[1]) = (1, self.count);
+        }
         while self.rings < rings && self.widen(topology) {}
         self.vertices()
     }
@@ -90,17 +117,17 @@ impl Neighbourhood {
         if self.is_complete() {
             return false;
         }
+        if !self.marked {
+            self.members[..self.count].iter().for_each(|&member| self.met[member as usize] = self.gather);
+            self.marked = true;
+        }
         let first = if self.rings == 0 { 0 } else { self.ends[self.rings - 1] };
         let last = self.ends[self.rings];
-        for member in first..last {
-            match topology.polygons() {
-                None => self.expand_triangles(topology.rings().ring(self.members[member] as usize)),
-                Some(polygons) => self.expand_polygons(topology, polygons, self.members[member] as usize),
-            }
-            if self.full {
-                break;
-            }
+        match topology.polygons() {
+            None => self.put_triangles(topology, first..last),
+            Some(polygons) => self.put_polygons(topology, polygons, first..last),
         }
+        self.look();
         self.rings += 1;
         self.ends[self.rings] = self.count;
         self.count > last
@@ -148,69 +175,88 @@ impl Neighbourhood {
         self.full || exhausted || self.rings == MAX_RINGS
     }
 
+    /// Puts the rings of some members into the row.
     #[inline(always)]
-    fn expand_triangles(&mut self, ring: &[u32]) {
-        // In a register while it grows.
-        let mut count = self.count;
-        if ring.len() <= MOST_ENTRIES {
-            for &neighbour in ring {
-                count = self.insert(neighbour, count);
-            }
-        } else {
-            for entry in spaced(ring.len(), MOST_ENTRIES) {
-                count = self.insert(ring[entry], count);
+    fn put_triangles(&mut self, topology: &Topology, members: Range<usize>) {
+        for member in members {
+            self.waiting += copy_ring(topology, self.members[member], &mut self.row[self.waiting..]);
+            if self.waiting > ROW && !self.look() {
+                return;
             }
         }
-        self.count = count;
-        self.note(ring.len().min(MOST_ENTRIES));
     }
 
-    fn expand_polygons(&mut self, topology: &Topology, polygons: &Polygons, vertex: usize) {
-        let range = topology.rings().ring_range(vertex);
-        let ring = topology.ring(vertex);
-        for entry in spaced(ring.len(), MOST_ENTRIES) {
-            let mut count = self.insert(ring[entry], self.count);
-            let face = polygons.corner_face(range.start + entry);
-            // The corners of a triangle are neighbours along edges.
-            let corners = if face == NO_FACE { &[] } else { polygons.face(face as usize) };
-            if corners.len() > 3 {
-                for corner in spaced(corners.len(), MOST_CORNERS) {
-                    count = self.insert(corners[corner], count);
+    /// As [`Neighbourhood::put_triangles`], with all corners of the members' faces.
+    fn put_polygons(&mut self, topology: &Topology, polygons: &Polygons, members: Range<usize>) {
+        for member in members {
+            let range = topology.rings().ring_range(self.members[member] as usize);
+            for entry in spaced(range.len(), MOST_ENTRIES).map(|entry| range.start + entry) {
+                self.put(topology.ring_neighbours()[entry]);
+                let face = polygons.corner_face(entry);
+                // The corners of a triangle are neighbours along edges.
+                let corners = if face == NO_FACE { &[] } else { polygons.face(face as usize) };
+                if corners.len() > 3 {
+                    spaced(corners.len(), MOST_CORNERS).for_each(|corner| self.put(corners[corner]));
+                }
+                if self.waiting > ROW && !self.look() {
+                    return;
                 }
             }
-            self.count = count;
-            self.note(1 + corners.len().min(MOST_CORNERS));
-            if self.full {
-                break;
+        }
+    }
+
+    fn put(&mut self, vertex: u32) {
+        self.row[self.waiting] = vertex;
+        self.waiting += 1;
+    }
+
+    /// Adds what is new of the row to the members, and cuts off what is too much; answers whether it may go on.
+    #[inline(always)]
+    fn look(&mut self) -> bool {
+        // First which are new, then where they go. In one pass a CPU that has seen a load meet an earlier store would let every
+        // load wait for where the vertex before it goes. Eight at a time, filled up with the vertex itself, which is not new.
+        let length = self.waiting.next_multiple_of(8);
+        self.row[self.waiting..length].fill(self.members[0]);
+        let (row, gather) = (&self.row[..length], self.gather);
+        let new = &mut self.new[..length];
+        for (new, row) in new.chunks_exact_mut(8).zip(row.chunks_exact(8)) {
+            for (new, &vertex) in new.iter_mut().zip(row) {
+                let met = &mut self.met[vertex as usize];
+                *new = (*met != gather) as u8;
+                *met = gather;
+            }
+        }
+        let mut count = self.count;
+        for (new, row) in new.chunks_exact(8).zip(row.chunks_exact(8)) {
+            let members = &mut self.members[count..count + 8];
+            let mut place = 0;
+            for (&new, &vertex) in new.iter().zip(row) {
+                members[place % 8] = vertex;
+                place += new as usize;
+            }
+            count += place;
+        }
+        self.looks += std::mem::take(&mut self.waiting);
+        self.count = count.min(MAX_NEIGHBOURS + 1);
+        self.full |= count > MAX_NEIGHBOURS + 1 || self.looks > MOST_LOOKS;
+        !self.full
+    }
+}
+
+/// Copies what is looked at of a ring, without a loop if the ring is short; answers with how much that is.
+#[inline(always)]
+fn copy_ring(topology: &Topology, vertex: u32, to: &mut [u32]) -> usize {
+    let (entries, range) = (topology.ring_neighbours(), topology.rings().ring_range(vertex as usize));
+    let length = range.len();
+    match entries.get(range.start..range.start + COPIED) {
+        Some(copied) if length <= COPIED => to[..COPIED].copy_from_slice(copied),
+        _ => {
+            for (place, entry) in to.iter_mut().zip(spaced(length, MOST_ENTRIES)) {
+                *place = entries[range.start + entry];
             }
         }
     }
-
-    /// Counts looks, and cuts off what is too much.
-    #[inline(always)]
-    fn note(&mut self, looks: usize) {
-        self.looks += looks;
-        if self.count > MAX_NEIGHBOURS + 1 || self.looks > MOST_LOOKS {
-            self.count = self.count.min(MAX_NEIGHBOURS + 1);
-            self.full = true;
-        }
-    }
-
-    /// Adds a vertex to `count` members, if it is not in yet; answers with their number then. Written so that nothing is branched on but collisions in the table, which are
-    /// rare: whether a vertex is new is what a CPU cannot guess.
-    #[inline(always)]
-    fn insert(&mut self, vertex: u32, count: usize) -> usize {
-        let entry = (self.gather as u64) << 32 | vertex as u64;
-        let mut slot = (vertex.wrapping_mul(0x9e37_79b1) >> SHIFT) as usize;
-        let mut found = self.table[slot];
-        while (found >> 32) as u32 == self.gather && found != entry {
-            slot = (slot + 1) % SLOTS;
-            found = self.table[slot];
-        }
-        self.table[slot] = entry;
-        self.members[count] = vertex;
-        count + (found != entry) as usize
-    }
+    length.min(MOST_ENTRIES)
 }
 
 /// `0..count`, or `most` evenly spaced of them.
@@ -263,7 +309,6 @@ mod tests {
     #[test]
     fn rings_are_those_of_a_search_over_all_faces() {
         let mut below = random(3);
-        let mut shared = Neighbourhood::new();
         for round in 0..60 {
             let count = 30 + below(60) as usize;
             let faces: Vec<Vec<u32>> = if round % 2 == 0 {
@@ -297,6 +342,7 @@ mod tests {
             };
             let vertex_count = faces.iter().flatten().max().unwrap() + 1;
             let topology = topology(&faces, vertex_count as usize);
+            let mut shared = Neighbourhood::new(&topology).unwrap();
             for vertex in 0..vertex_count {
                 let expected = naive(&faces, vertex, 4);
                 let found: Vec<u32> = shared.gather(&topology, vertex, 3).to_vec();
@@ -310,7 +356,7 @@ mod tests {
                 let grew = shared.widen(&topology);
                 assert_eq!(grew, !expected[4].is_empty());
                 assert!(grew || shared.is_complete());
-                let mut fresh = Neighbourhood::new();
+                let mut fresh = Neighbourhood::new(&topology).unwrap();
                 assert_eq!(fresh.gather(&topology, vertex, 4), shared.vertices());
                 shared.gather(&topology, vertex, 1);
                 while shared.rings() < 4 && shared.widen(&topology) {}
@@ -338,13 +384,13 @@ mod tests {
         for faces in [fan, polygon, dense(400), dense(200)] {
             let vertex_count = *faces.iter().flatten().max().unwrap() as usize + 1;
             let topology = topology(&faces, vertex_count);
-            let mut neighbourhood = Neighbourhood::new();
+            let mut neighbourhood = Neighbourhood::new(&topology).unwrap();
             for vertex in (0..vertex_count as u32).rev().take(500) {
                 for rings in [1, 2, 8] {
                     let found = neighbourhood.gather(&topology, vertex, rings).to_vec();
                     assert!((1..=MAX_NEIGHBOURS).contains(&found.len()));
                     assert_eq!(found.iter().collect::<BTreeSet<_>>().len(), found.len());
-                    assert!(neighbourhood.looks <= MOST_LOOKS + MOST_ENTRIES + MOST_CORNERS);
+                    assert!(neighbourhood.looks <= MOST_LOOKS + ROW + MOST_ENTRIES);
                     // The neighbours along edges are there, however large the face.
                     if topology.ring(vertex as usize).len() <= 2 {
                         assert!(topology.ring(vertex as usize).iter().all(|neighbour| found.contains(neighbour)));
@@ -358,18 +404,18 @@ mod tests {
     #[test]
     fn gathers_may_be_counted_past_the_end() {
         let topology = topology(&[vec![0, 1, 2], vec![2, 1, 3]], 4);
-        let mut neighbourhood = Neighbourhood::new();
+        let mut neighbourhood = Neighbourhood::new(&topology).unwrap();
         neighbourhood.gather(&topology, 0, 2);
-        neighbourhood.gather = u32::MAX - 1;
+        neighbourhood.gather = u16::MAX - 1;
         for _ in 0..4 {
             assert_eq!(neighbourhood.gather(&topology, 0, 1), [1, 2]);
             assert_eq!(neighbourhood.gather(&topology, 3, 2), [2, 1, 0]);
         }
-        // Entries of the first gather, then the second first gather; and an empty table, which must not look like vertex 0.
+        // Numbers of the first gather, then the second first gather; and none.
         for before in [Some(0), None] {
-            let mut neighbourhood = Neighbourhood::new();
+            let mut neighbourhood = Neighbourhood::new(&topology).unwrap();
             before.map(|vertex| neighbourhood.gather(&topology, vertex, 2).len());
-            neighbourhood.gather = u32::MAX;
+            neighbourhood.gather = u16::MAX;
             assert_eq!(neighbourhood.gather(&topology, 3, 2), [2, 1, 0]);
         }
     }

@@ -2,8 +2,9 @@
 
 use super::checked_stride;
 use crate::error::Error;
-use crate::simd::{Real, Vector};
+use crate::simd::{MAX_LANES, Real, Vector, Vector3};
 use glam::{DVec3, Vec3};
+use std::any::TypeId;
 use std::marker::PhantomData;
 
 /// Borrowed vertex positions, `#V × 3`, `f32` or `f64`, at any byte stride.
@@ -206,20 +207,44 @@ impl<S: Coordinate> StridedPoints<'_, S> {
     }
 }
 
+impl<S: Coordinate> StridedPoints<'_, S> {
+    /// The points `indices[0..V::LANES]`, a point a lane.
+    ///
+    /// # Panics
+    /// Where one of them is no point.
+    #[inline(always)]
+    pub(crate) fn lanes<V: Vector>(&self, indices: &[u32; MAX_LANES]) -> Vector3<V> {
+        if TypeId::of::<V::Scalar>() != TypeId::of::<S>() {
+            return gather_converted(self, indices);
+        }
+        let most = indices[..V::LANES].iter().fold(0, |most, &index| most.max(index)) as usize;
+        assert!(most < self.count, "point {most} of {}", self.count);
+        // SAFETY: all are points, and of the vector's scalar; where four scalars are loaded, points are packed and none of
+        // these is the last.
+        unsafe {
+            if self.is_packed() && most + 1 < self.count {
+                V::gather::<true>(self.base, self.stride, indices)
+            } else {
+                V::gather::<false>(self.base, self.stride, indices)
+            }
+        }
+    }
+}
+
 /// Points of any scalar type, loaded as lanes of another: the mixed case, one scalar at a time.
 #[inline(always)]
 pub(crate) fn gather_converted<V: Vector, S: Coordinate>(
     points: &StridedPoints<'_, S>,
-    indices: &[u32; crate::simd::MAX_LANES],
-) -> crate::simd::Vector3<V> {
-    let mut lanes = [[V::Scalar::ZERO; crate::simd::MAX_LANES]; 3];
+    indices: &[u32; MAX_LANES],
+) -> Vector3<V> {
+    let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; 3];
     for lane in 0..V::LANES {
         let point = points.coordinates(indices[lane] as usize);
         for axis in 0..3 {
             lanes[axis][lane] = V::Scalar::from_f64(point[axis].into());
         }
     }
-    crate::simd::Vector3::from_lanes(&lanes)
+    Vector3::from_lanes(&lanes)
 }
 
 macro_rules! from_slices {
