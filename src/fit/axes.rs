@@ -8,7 +8,7 @@
 //! two or three rounds are enough. What an off-diagonal element below `2⁻⁵⁶` of the trace could turn is no more than rounding
 //! has turned already.
 //! Degenerate rule: points on a line, at one place or as far apart in all directions have *some* orthonormal frame, never NaN
-//! unless a coordinate is infinite. Cost: two passes over the points, and three square roots and divisions a rotation.
+//! unless a coordinate is infinite. Cost: two passes over the points, and two square roots and a division a rotation.
 
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::Patch;
@@ -160,11 +160,13 @@ fn rotate<V: Vector<Scalar = f64>, const P: usize, const Q: usize, const R: usiz
     let (element, difference) = (off[R], diagonal[Q] - diagonal[P]);
     let active = negligible.lt(element.abs());
     let twice = element + element;
-    let width = difference.abs() + (difference * difference + twice * twice).sqrt();
+    let hypotenuse = (difference * difference + twice * twice).sqrt();
+    let width = difference.abs() + hypotenuse;
     let signed = V::select(difference.lt(V::zero()), -twice, twice);
-    // The tangent of the smaller of the two angles that do it.
-    let tangent = V::select(active, signed / V::select(active, width, V::one()), V::zero());
-    let cosine = V::one() / (V::one() + tangent * tangent).sqrt();
+    // The tangent and the cosine of the smaller of the two angles that do it, with one division.
+    let inverse = V::one() / V::select(active, hypotenuse * width, V::one());
+    let tangent = V::select(active, signed * (inverse * hypotenuse), V::zero());
+    let cosine = (V::constant(0.5) * width * (inverse * width)).sqrt();
     let sine = tangent * cosine;
     // A rotation by nothing would still turn -0 to 0, and how many rounds a lane goes through depends on its neighbours.
     diagonal[P] = V::select(active, diagonal[P] - tangent * element, diagonal[P]);

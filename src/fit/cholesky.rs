@@ -1,25 +1,29 @@
-//! Symmetric positive definite systems of a few unknowns, in lanes, by Cholesky's factorisation.
+//! Symmetric positive definite systems of a few unknowns, in lanes, by Cholesky's factorisation without roots.
 //!
-//! `A = L Lᵀ`, column by column, each column at once taken off all that are to its right (Golub & Van Loan, "Matrix
-//! Computations", algorithm 4.2.2): no sum waits for itself. Only the lower triangle is read and written. The error does not
-//! depend on how rows and columns are scaled, so nothing is scaled.
+//! `A = L D Lᵀ` with ones on the diagonal of `L`, each column at once taken off all that are to its right (Golub & Van Loan, "Matrix
+//! Computations", 4.1.2 and 4.2.2), and off the right-hand side: no sum waits for itself, and the columns wait for one division each.
+//! Only the lower triangle is read and written. The error does not depend on how rows and columns are scaled, so nothing is scaled.
 //!
 //! Degenerate rule: a lane in which a pivot is not positive is not [`Factored::definite`], and nothing that follows from it is
-//! of use. Cost: `K³/6` multiplications and as many subtractions, `K` roots and divisions.
+//! of use. Cost: `K³/6` multiplications and as many subtractions, `K` divisions.
 
 use crate::simd::{Mask, Vector};
 
-/// The factor `L`, with the reciprocals of its diagonal.
+/// The factor `L`, and one over `D`.
 pub(crate) struct Factored<'a, V: Vector, const K: usize> {
+    /// Below its diagonal.
     lower: &'a [[V; K]; K],
     inverse: [V; K],
     /// Lanes whose matrix is positive definite, as far as rounding tells.
     pub definite: V::Mask,
 }
 
-/// Factors the lower triangle of `matrix` in place.
+/// Factors the lower triangle of `matrix` in place, and solves `A x = b`.
 #[inline(always)]
-pub(crate) fn factor<V: Vector, const K: usize>(matrix: &mut [[V; K]; K]) -> Factored<'_, V, K> {
+pub(crate) fn factor_and_solve<V: Vector, const K: usize>(
+    matrix: &mut [[V; K]; K],
+    mut b: [V; K],
+) -> (Factored<'_, V, K>, [V; K]) {
     let mut inverse = [V::zero(); K];
     let mut definite = V::zero().lt(V::one());
     for k in 0..K {
@@ -27,18 +31,30 @@ pub(crate) fn factor<V: Vector, const K: usize>(matrix: &mut [[V; K]; K]) -> Fac
         // Not a number compares as false.
         let positive = V::zero().lt(pivot).and(pivot.lt(V::constant(f64::MAX)));
         definite = definite.and(positive);
-        inverse[k] = V::one() / V::select(positive, pivot, V::one()).sqrt();
-        for row in &mut matrix[k + 1..] {
-            row[k] = row[k] * inverse[k];
-        }
-        for column in k + 1..K {
-            let factor = matrix[column][k];
-            for row in &mut matrix[column..] {
-                row[column] = row[column] - row[k] * factor;
+        inverse[k] = V::one() / V::select(positive, pivot, V::one());
+        let column: [V; K] = column(matrix, k);
+        for row in k + 1..K {
+            let factor = column[row] * inverse[k];
+            matrix[row][k] = factor;
+            for (x, other) in matrix[row][k + 1..=row].iter_mut().zip(&column[k + 1..]) {
+                *x = *x - factor * *other;
             }
+            b[row] = b[row] - factor * b[k];
         }
     }
-    Factored { lower: matrix, inverse, definite }
+    let factored = Factored { lower: matrix, inverse, definite };
+    let x = factored.solve_upper(b);
+    (factored, x)
+}
+
+/// A column from the diagonal on.
+#[inline(always)]
+fn column<V: Vector, const K: usize>(matrix: &[[V; K]; K], k: usize) -> [V; K] {
+    let mut column = [V::zero(); K];
+    for (x, row) in column.iter_mut().zip(matrix).skip(k) {
+        *x = row[k];
+    }
+    column
 }
 
 impl<V: Vector, const K: usize> Factored<'_, V, K> {
@@ -46,13 +62,20 @@ impl<V: Vector, const K: usize> Factored<'_, V, K> {
     #[inline(always)]
     pub fn solve(&self, mut b: [V; K]) -> [V; K] {
         for k in 0..K {
-            b[k] = b[k] * self.inverse[k];
             for row in k + 1..K {
                 b[row] = b[row] - self.lower[row][k] * b[k];
             }
         }
-        for k in (0..K).rev() {
-            b[k] = b[k] * self.inverse[k];
+        self.solve_upper(b)
+    }
+
+    /// The solution of `D Lᵀ x = b`.
+    #[inline(always)]
+    fn solve_upper(&self, mut b: [V; K]) -> [V; K] {
+        for (x, inverse) in b.iter_mut().zip(self.inverse) {
+            *x = *x * inverse;
+        }
+        for k in (1..K).rev() {
             for row in 0..k {
                 b[row] = b[row] - self.lower[k][row] * b[k];
             }
@@ -63,23 +86,27 @@ impl<V: Vector, const K: usize> Factored<'_, V, K> {
     /// The diagonal of the inverse of `A`. Costs `K³/6` multiplications.
     #[inline(always)]
     pub fn inverse_diagonal(&self) -> [V; K] {
-        let mut diagonal = [V::zero(); K];
-        for first in 0..K {
-            // A column of the inverse of L; its square is in the inverse of A.
-            let mut column = [V::zero(); K];
-            column[first] = V::one();
-            for k in first..K {
-                column[k] = column[k] * self.inverse[k];
-                diagonal[first] = diagonal[first] + column[k] * column[k];
-                for row in k + 1..K {
-                    column[row] = column[row] - self.lower[row][k] * column[k];
+        let mut diagonal = self.inverse;
+        // Row after row, the inverse of L; below the diagonal.
+        let mut rows = [[V::zero(); K]; K];
+        for row in 1..K {
+            let (above, rest) = rows.split_at_mut(row);
+            let own = &mut rest[0];
+            for (k, other) in above.iter().enumerate() {
+                let factor = self.lower[row][k];
+                for (x, other) in own[..k].iter_mut().zip(other) {
+                    *x = *x - factor * *other;
                 }
+                own[k] = own[k] - factor;
+            }
+            for (sum, x) in diagonal.iter_mut().zip(&own[..row]) {
+                *sum = *sum + *x * *x * self.inverse[row];
             }
         }
         diagonal
     }
 
-    /// The reciprocals of the factor's diagonal: the determinant of `A` is one over the square of their product.
+    /// One over `D`: the determinant of `A` is one over their product.
     pub fn inverse_pivots(&self) -> &[V; K] {
         &self.inverse
     }
@@ -110,11 +137,11 @@ mod tests {
             let mut lower = a;
             // What is above the diagonal is not looked at.
             (0..K).for_each(|i| lower[i][i + 1..].fill(f64::NAN));
-            let factored = factor(&mut lower);
-            assert!(factored.definite);
             let x: [f64; K] = std::array::from_fn(|k| next() / scale[k]);
             let right = std::array::from_fn(|i| (0..K).map(|j| a[i][j] * x[j]).sum());
-            let found = factored.solve(right);
+            let (factored, found) = factor_and_solve(&mut lower, right);
+            assert!(factored.definite);
+            assert_eq!(factored.solve(right), found);
             for k in 0..K {
                 assert!((found[k] - x[k]).abs() * scale[k] < 1e-11);
                 let mut unit = [0.0; K];
@@ -125,7 +152,7 @@ mod tests {
         }
         for spoilt in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
             let mut matrix = [[2.0, f64::NAN], [1.0, spoilt]];
-            assert!(!factor(&mut matrix).definite);
+            assert!(!factor_and_solve(&mut matrix, [0.0; 2]).0.definite);
         }
     }
 }

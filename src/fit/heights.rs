@@ -6,13 +6,14 @@
 //! how noise is measured.
 //!
 //! Degenerate rule: a point so far away that its powers would leave the range, and one whose coordinates have left it, counts for
-//! nothing; a point right above the vertex has no direction, and stays there. Cost: two passes over the points, a root and two
-//! divisions each.
+//! nothing; a point right above the vertex has no direction, and stays there. Cost: two passes over the points, a root and a
+//! division each.
 
 use super::adaptive_model::Coordinates;
 use super::axes::Axes;
-use super::cholesky::factor;
+use super::cholesky::factor_and_solve;
 use super::least_squares;
+use super::moments::ROWS;
 use super::ridge::{Setting, TERMS};
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::Patch;
@@ -32,9 +33,6 @@ const NO_DIRECTION: f64 = 1e-20;
 
 /// The square of the distance, in edge lengths, beyond which points do not count.
 const FARTHEST: f64 = 1e20;
-
-/// Points are added up so many at a time.
-pub(super) const ROWS: usize = 4;
 
 /// Rows of numbers a point.
 const COLUMNS: usize = 6;
@@ -145,12 +143,10 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
     for (k, row) in matrix.iter_mut().enumerate() {
         row[k] = row[k] + ridge[k] * V::constant(FRAME_RIDGE) + V::constant(f64::MIN_POSITIVE);
     }
-    let factored = factor(&mut matrix);
-    let definite = factored.definite;
-    let [_, p, q, ..] = factored.solve(right);
+    let (factored, [_, p, q, ..]) = factor_and_solve(&mut matrix, right);
     let normal = start.vector(-p, -q, V::one());
     let normal = normal * (V::one() / normal.squared().sqrt());
-    let turned = definite.and(V::constant(MOST_TURN).lt(normal.dot(patch.normal)));
+    let turned = factored.definite.and(V::constant(MOST_TURN).lt(normal.dot(patch.normal)));
     Axes::about(Vector3 {
         x: V::select(turned, normal.x, patch.normal.x),
         y: V::select(turned, normal.y, patch.normal.y),
@@ -170,22 +166,34 @@ pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setti
         let [u, v, w] = [u, v, w].map(|x| V::select(near, x, V::zero()));
         (heights.u[row], heights.v[row], heights.w[row]) = (u, v, w);
         let flat = u * u + v * v;
-        let mut squared = flat;
-        if setting.coordinates == Coordinates::Circle {
-            squared = flat + w * w;
-            let directed = V::constant(NO_DIRECTION).lt(flat);
-            let (flat, squared) = (V::select(directed, flat, V::one()), V::select(directed, squared, V::one()));
-            let inverse = V::one() / (flat * squared);
-            let back = (flat * flat * inverse).sqrt();
-            let forth = back * (squared * squared * inverse);
-            (heights.u[row], heights.v[row], heights.back[row]) = (u * forth, v * forth, back);
-        }
-        let fourth = squared * squared;
-        let noise = heights.variance[row].max(least);
-        let variance = noise + setting.sizes_squared[3] * (fourth * fourth * squared);
-        heights.variance[row] = variance.min(V::constant(1e200));
         let there = V::constant(row as f64).lt(setting.count).and(near);
-        heights.weight[row] = V::select(there, V::one() / heights.variance[row], V::zero());
+        let noise = heights.variance[row].max(least);
+        let variance = |squared: V| {
+            let fourth = squared * squared;
+            let variance = noise + setting.sizes_squared[3] * (fourth * fourth * squared);
+            variance.min(V::constant(1e200))
+        };
+        match setting.coordinates {
+            Coordinates::Height => {
+                let variance = variance(flat);
+                heights.variance[row] = variance;
+                heights.weight[row] = V::select(there, V::one() / variance, V::zero());
+            }
+            Coordinates::Circle => {
+                let squared = flat + w * w;
+                let directed = V::constant(NO_DIRECTION).lt(flat);
+                let variance = variance(squared);
+                let (flat, squared) = (V::select(directed, flat, V::one()), V::select(directed, squared, V::one()));
+                // One root and one division for both factors and the weight.
+                let product = (flat * squared).sqrt();
+                let inverse = V::one() / (product * variance);
+                let inverse_product = inverse * variance;
+                let (back, forth) = (flat * inverse_product, squared * inverse_product);
+                (heights.u[row], heights.v[row], heights.back[row]) = (u * forth, v * forth, back);
+                heights.variance[row] = variance;
+                heights.weight[row] = V::select(there, inverse * product, V::zero());
+            }
+        }
     }
 }
 

@@ -12,11 +12,15 @@
 //! no more than its coefficients, where no direction of least variance stands out, and where its normal is more than
 //! 75° from the vertex's: then the neighbourhood is no height field over the plane that was found (it wraps around a thin
 //! tube, or around the whole of a small component). [`JetFit`] says what becomes of these.
-//! Cost: that of [`solve`] for as many unknowns, and two passes over the points.
+//! Fitted by normal equations with refinement ([`fit_polynomial`]), or where their condition is large by reflections ([`solve`]): which
+//! of them depends on the vertex's own points only.
+//! Cost: that of the fit, and two passes over the points.
 
 use super::JetFit;
 use super::axes::Axes;
 use super::least_squares::{condition, solve};
+use super::moments::ROWS;
+use super::normal_equations::{Polynomial, fit_polynomial};
 use super::surface::Surface;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::Patch;
@@ -131,6 +135,52 @@ impl JetFit {
 /// Fits the polynomial of `K` coefficients along `axes.z`.
 #[inline(always)]
 fn fit<V: Vector<Scalar = f64>, const K: usize>(patch: &Patch<'_, V>, axes: Axes<V>, scratch: &mut [V]) -> Jet<V> {
+    let length = patch.len().next_multiple_of(ROWS);
+    let (x, rest) = scratch.split_at_mut(length);
+    let (y, rest) = rest.split_at_mut(length);
+    let (z, scratch) = rest.split_at_mut(length);
+    for row in 0..length {
+        // A point that a lane does not have is at the origin.
+        let point = if row < patch.len() { axes.components(patch.point(row)) } else { Vector3::zero() };
+        (x[row], y[row], z[row]) = (point.x, point.y, point.z);
+    }
+    let mut solution = fit_polynomial::<V, K>([x, y, z], patch.count, patch.full);
+    let mut full_rank = solution.well_conditioned;
+    let has_points = V::zero().lt(patch.count).bits();
+    if full_rank.bits() & has_points != has_points {
+        let (reflected, trusted) = fit_by_reflections::<V, K>([x, y, z], patch, scratch);
+        let well = full_rank;
+        for term in 0..K {
+            let coefficients = &mut solution.coefficients;
+            coefficients[term] = V::select(well, coefficients[term], reflected.coefficients[term]);
+        }
+        solution.residual_squared = V::select(well, solution.residual_squared, reflected.residual_squared);
+        solution.condition = V::select(well, solution.condition, reflected.condition);
+        full_rank = well.or(trusted);
+    }
+    let u = &solution.coefficients;
+    let residual = (solution.residual_squared / (patch.count + V::one())).sqrt();
+    let condition = solution.condition;
+
+    let two = V::constant(2.0);
+    let second = if K > 3 { [two * u[3 % K], u[4 % K], two * u[5 % K]] } else { [V::zero(); 3] };
+    let Surface { normal, x, y, shape } = Surface::of_derivatives(&axes, [u[1], u[2]], second);
+    // A vertex without a normal has nothing to tell the sides of the surface by.
+    let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
+    // As many points as coefficients would be met exactly, noise and all.
+    let enough = V::constant((K - 1) as f64).lt(patch.count);
+    let determined = full_rank.and(enough).and(condition.lt(V::constant(ILL_CONDITIONED)));
+    let trusted = determined.and(agrees).and(axes.distinct);
+    Jet { normal, x, y, shape, residual, condition, trusted, determined }
+}
+
+/// The same by Householder reflections, for any condition; and lanes of full rank.
+#[inline(always)]
+fn fit_by_reflections<V: Vector<Scalar = f64>, const K: usize>(
+    [x, y, z]: [&[V]; 3],
+    patch: &Patch<'_, V>,
+    scratch: &mut [V],
+) -> (Polynomial<V, K>, V::Mask) {
     // Rows that are too few are filled up with zeros, as in lanes that have fewer than others.
     let rows = (patch.len() + 1).max(K);
     let columns = &mut scratch[..(K + 1) * rows];
@@ -142,8 +192,8 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(patch: &Patch<'_, V>, axes: Axes
     for row in 1..rows {
         let (mut weight, mut point) = (V::zero(), Vector3::zero());
         if row <= patch.len() {
-            weight = if row <= patch.full { V::one() } else { patch.weight(row - 1) };
-            point = axes.components(patch.point(row - 1));
+            weight = patch.weight(row - 1);
+            point = Vector3 { x: x[row - 1], y: y[row - 1], z: z[row - 1] };
         }
         // Monomials of each degree from those of the one below. A point that a lane does not have is at the origin, so its
         // only monomial that is not zero is the first.
@@ -164,20 +214,13 @@ fn fit<V: Vector<Scalar = f64>, const K: usize>(patch: &Patch<'_, V>, axes: Axes
         columns[K * rows + row] = point.z;
     }
     let solution = solve::<V, K>(columns, rows);
-    let u = &solution.unknowns;
-    let residual = (solution.residual_squared / (patch.count + V::one())).sqrt();
-    let condition = condition(columns, rows, &solution);
-
-    let two = V::constant(2.0);
-    let second = if K > 3 { [two * u[3 % K], u[4 % K], two * u[5 % K]] } else { [V::zero(); 3] };
-    let Surface { normal, x, y, shape } = Surface::of_derivatives(&axes, [u[1], u[2]], second);
-    // A vertex without a normal has nothing to tell the sides of the surface by.
-    let agrees = V::constant(AGREES).lt(normal.dot(patch.normal));
-    // As many points as coefficients would be met exactly, noise and all.
-    let enough = V::constant((K - 1) as f64).lt(patch.count);
-    let determined = solution.trusted.and(enough).and(condition.lt(V::constant(ILL_CONDITIONED)));
-    let trusted = determined.and(agrees).and(axes.distinct);
-    Jet { normal, x, y, shape, residual, condition, trusted, determined }
+    let fitted = Polynomial {
+        coefficients: solution.unknowns,
+        residual_squared: solution.residual_squared,
+        condition: condition(columns, rows, &solution),
+        well_conditioned: solution.trusted,
+    };
+    (fitted, solution.trusted)
 }
 
 #[cfg(test)]

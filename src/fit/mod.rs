@@ -8,6 +8,8 @@ mod heights;
 mod jet;
 mod learning;
 mod least_squares;
+mod moments;
+mod normal_equations;
 mod ridge;
 mod sample;
 mod surface;
@@ -26,6 +28,7 @@ pub(crate) use tilted_sections::TiltedSums;
 use crate::error::Error;
 use crate::sweep::MOST_RINGS;
 use jet::coefficients;
+use moments::ROWS;
 
 /// How a jet is fitted. Zeros, the default, stand for the values that are said here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -80,6 +83,6 @@ impl JetFit {
     /// Rows of scratch for a patch of so many points.
     pub(crate) fn scratch(&self, points: usize) -> usize {
         let coefficients = coefficients(self.degree);
-        (coefficients + 1) * (points + 1).max(coefficients)
+        3 * points.next_multiple_of(ROWS) + (coefficients + 1) * (points + 1).max(coefficients)
     }
 }

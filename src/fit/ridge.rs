@@ -11,8 +11,9 @@
 //! Cost: 78 products and sums a point; 680 products for the factor, as many again for the variances.
 
 use super::adaptive_model::Coordinates;
-use super::cholesky::factor;
-use super::heights::{Heights, ROWS};
+use super::cholesky::factor_and_solve;
+use super::heights::Heights;
+use super::moments::{ROWS, Rows, add, add_degrees, first_of, raised, rows, times};
 use crate::simd::{MAX_LANES, Vector};
 
 /// The coefficients of a polynomial of degree 4.
@@ -53,7 +54,7 @@ pub(super) struct Coefficients<V: Vector> {
     pub variances: [V; TERMS],
     /// `1/variance` of their prior.
     prior: [V; TERMS],
-    /// `bᵀ c` and the reciprocals of the factor's pivots, of which the evidence is made.
+    /// `bᵀ c` and the reciprocals of the pivots, of which the evidence is made.
     explained: V,
     inverse_pivots: [V; TERMS],
     pub definite: V::Mask,
@@ -66,7 +67,7 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
     setting: &Setting<V>,
     with_variances: bool,
 ) -> Coefficients<V> {
-    let Moments { plain, back, back_twice, right } = moments(heights);
+    let Moments { plain, back, back_twice, right } = moments(heights, setting.coordinates);
     // A product of two terms is a monomial of the summed degrees, with a factor `back` for each that is linear.
     let mut matrix = [[V::zero(); TERMS]; TERMS];
     for row in 0..TERMS {
@@ -74,7 +75,7 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
             let (d, e) = (DEGREES[row], DEGREES[column]);
             let at = first_of(d + e) + (row - first_of(d)) + (column - first_of(e));
             matrix[row][column] = match (d == 1, e == 1) {
-                (true, true) => back_twice[at - first_of(2)],
+                (true, true) => back_twice[at],
                 (true, false) | (false, true) => back[at],
                 (false, false) => plain[at],
             };
@@ -94,8 +95,7 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
     for axis in 0..2 {
         right[1 + axis] = right[1 + axis] + prior[1 + axis] * setting.slopes[axis];
     }
-    let factored = factor(&mut matrix);
-    let c = factored.solve(right);
+    let (factored, c) = factor_and_solve(&mut matrix, right);
     let mut explained = V::zero();
     for term in 0..TERMS {
         explained = explained + right[term] * c[term];
@@ -105,11 +105,6 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
     Coefficients { c, variances, prior, explained, inverse_pivots, definite }
 }
 
-/// Where the monomials of a degree start, if all are in a row.
-const fn first_of(degree: usize) -> usize {
-    degree * (degree + 1) / 2
-}
-
 /// Sums over the points of weight times monomials of `(u, v)` in the coordinates of degree 2 and more.
 struct Moments<V> {
     /// Those up to degree 8 (but 1, which is not needed).
@@ -117,85 +112,58 @@ struct Moments<V> {
     /// With a factor `back`, of degrees 1, 3, 4, 5.
     back: [V; first_of(6)],
     /// With its square, of degree 2.
-    back_twice: [V; 3],
+    back_twice: [V; first_of(3)],
     /// Weight times height times each term.
     right: [V; TERMS],
 }
 
 #[inline(always)]
-fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>) -> Moments<V> {
+fn moments<V: Vector<Scalar = f64>>(heights: &Heights<'_, V>, coordinates: Coordinates) -> Moments<V> {
     let mut sums = Moments {
         plain: [V::zero(); first_of(9)],
         back: [V::zero(); first_of(6)],
-        back_twice: [V::zero(); 3],
+        back_twice: [V::zero(); first_of(3)],
         right: [V::zero(); TERMS],
     };
-    for first in (0..heights.len()).step_by(ROWS) {
-        let rows = first..first + ROWS;
-        let (mut u, mut v, mut plain, mut back, mut twice, mut right) = (
-            [V::zero(); ROWS],
-            [V::zero(); ROWS],
-            [V::zero(); ROWS],
-            [V::zero(); ROWS],
-            [V::zero(); ROWS],
-            [V::zero(); ROWS],
-        );
-        let mut right_back = right;
-        for (row, index) in rows.enumerate() {
-            let (height, weight, leads_back) = (heights.w[index], heights.weight[index], heights.back[index]);
-            (u[row], v[row]) = (heights.u[index], heights.v[index]);
-            plain[row] = weight;
-            back[row] = weight * leads_back;
-            twice[row] = back[row] * leads_back;
-            right[row] = weight * height;
-            right_back[row] = back[row] * height;
+    match coordinates {
+        Coordinates::Height => {
+            add_moments::<V, false>(heights, &mut sums);
+            // Nothing leads back.
+            sums.back.copy_from_slice(&sums.plain[..first_of(6)]);
+            sums.back_twice.copy_from_slice(&sums.plain[..first_of(3)]);
         }
-        add_series::<V, 9>(&mut sums.plain, &u, &v, plain, 0b10);
-        add_series::<V, 6>(&mut sums.back, &u, &v, back, 0b101);
-        let mut degree_2 = [V::zero(); first_of(3)];
-        degree_2[3..].copy_from_slice(&sums.back_twice);
-        add_series::<V, 3>(&mut degree_2, &u, &v, twice, 0b11);
-        sums.back_twice.copy_from_slice(&degree_2[3..]);
-        let mut linear = [sums.right[0], sums.right[1], sums.right[2]];
-        add_series::<V, 2>(&mut linear, &u, &v, right_back, 1);
-        let mut rest = sums.right;
-        add_series::<V, 5>(&mut rest, &u, &v, right, 0b10);
-        (rest[1], rest[2]) = (linear[1], linear[2]);
-        sums.right = rest;
+        Coordinates::Circle => add_moments::<V, true>(heights, &mut sums),
     }
     sums
 }
 
-/// Adds `start` times all monomials below degree `D` to `sums`, but of the degrees whose bit is set in `without`.
 #[inline(always)]
-fn add_series<V: Vector, const D: usize>(
-    sums: &mut [V],
-    u: &[V; ROWS],
-    v: &[V; ROWS],
-    start: [V; ROWS],
-    without: u32,
-) {
-    let mut monomials = [[V::zero(); ROWS]; 9];
-    monomials[0] = start;
-    for degree in 0..D {
-        if degree > 0 {
-            // The last is a power of v, the others have one u more than those before.
-            monomials[degree] = product(&monomials[degree - 1], v);
-            for monomial in &mut monomials[..degree] {
-                *monomial = product(monomial, u);
-            }
-        }
-        if without & 1 << degree == 0 {
-            for (sum, &[a, b, c, d]) in sums[first_of(degree)..].iter_mut().zip(&monomials[..=degree]) {
-                *sum = *sum + ((a + b) + (c + d));
-            }
+fn add_moments<V: Vector<Scalar = f64>, const BACK: bool>(heights: &Heights<'_, V>, sums: &mut Moments<V>) {
+    for first in (0..heights.len()).step_by(ROWS) {
+        let load = |column: &[V]| rows(column, first);
+        let (u, v) = (&load(heights.u), &load(heights.v));
+        let weight = [load(heights.weight)];
+        add(&mut sums.plain, &weight);
+        let linear: Rows<V, 2> = raised(weight, u, v);
+        add_degrees!(linear, u, v, &mut sums.plain, 3 4 5 6 7 8 9);
+
+        let right = times(weight, &load(heights.w));
+        add(&mut sums.right, &right);
+        let right: Rows<V, 2> = raised(right, u, v);
+        add(&mut sums.right, &if BACK { times(right, &load(heights.back)) } else { right });
+        add_degrees!(right, u, v, &mut sums.right, 3 4 5);
+
+        if BACK {
+            let back = &load(heights.back);
+            let linear = times(linear, back);
+            add(&mut sums.back, &linear);
+            let squares: Rows<V, 3> = raised(linear, u, v);
+            add(&mut sums.back_twice, &times(squares, back));
+            add_degrees!(squares, u, v, &mut sums.back, 4 5 6);
+        } else {
+            add(&mut sums.plain, &linear);
         }
     }
-}
-
-#[inline(always)]
-fn product<V: Vector>(a: &[V; ROWS], b: &[V; ROWS]) -> [V; ROWS] {
-    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
 }
 
 /// The square of what the polynomial leaves of the height of a point; 0 in lanes that do not have it.
@@ -253,7 +221,7 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
             }
         };
         for term in 0..TERMS {
-            add(self.inverse_pivots[term], 1.0);
+            add(self.inverse_pivots[term], 0.5);
             if term > 0 {
                 add(self.prior[term], 0.5);
             }

@@ -21,7 +21,7 @@
 //! needed. Cost: two square roots, two divisions and some forty products an edge; 60 products for the solve.
 
 use super::axes::Axes;
-use super::cholesky::factor;
+use super::cholesky::factor_and_solve;
 use super::surface::Surface;
 use crate::simd::{Mask, Vector, Vector3};
 use crate::sweep::{Ring, RingFaces};
@@ -105,9 +105,8 @@ impl<V: Vector> TiltedSums<V> {
         for k in [3, 4] {
             self.matrix[k][k] = self.matrix[k][k] + self.weight * V::constant(TILT_RIDGE);
         }
-        let factored = factor(&mut self.matrix);
+        let (factored, [mean, half, mixed, p, q]) = factor_and_solve(&mut self.matrix, self.right);
         let definite = factored.definite;
-        let [mean, half, mixed, p, q] = factored.solve(self.right);
         let surface = Surface::of_derivatives(&Axes::of(x, y, normal), [p, q], [mean + half, mixed, mean - half]);
         Tilted { surface, trusted: definite.and(V::zero().lt(self.weight)) }
     }
