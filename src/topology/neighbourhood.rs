@@ -213,8 +213,8 @@ impl Neighbourhood {
     /// Adds what is new of the row to the members, and cuts off what is too much; answers whether it may go on.
     #[inline(always)]
     fn look(&mut self) -> bool {
-        // First which are new, then where they go. In one pass a CPU that has seen a load meet an earlier store would let every
-        // load wait for where the vertex before it goes. Eight at a time, filled up with the vertex itself, which is not new.
+        // First which are new, then where they go: in one pass each load seems to wait for where the vertex before it goes, and two
+        // rings take half as long again. Eight at a time, filled up with the vertex itself, which is not new.
         let length = self.waiting.next_multiple_of(8);
         self.row[self.waiting..length].fill(self.members[0]);
         let (row, gather) = (&self.row[..length], self.gather);
