@@ -25,7 +25,6 @@ static void add(list *l, const char *name, umb_scalar scalar, uint32_t threads, 
                                 scalar == UMB_SCALAR_F64 ? "f64" : "f32",
                                 LEVELS[simd],
                                 (int)threads,
-                                threads == 1 && !strcmp(name, "topology"),
                                 1,
                                 ours_run_call,
                                 call};

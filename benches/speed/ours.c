@@ -94,11 +94,14 @@ static umb_points points_of(const mesh *m, umb_scalar scalar) {
   return (umb_points){.data = data, .count = m->vertex_count, .scalar = scalar};
 }
 
-static umb_topology *build(const mesh *m) {
+static umb_topology *build(const mesh *m, uint32_t threads, umb_simd simd) {
   umb_error error = UMB_ERROR_INIT;
+  umb_topology_options options = UMB_TOPOLOGY_OPTIONS_INIT;
+  options.threads = threads;
+  options.simd = simd;
   umb_faces faces = faces_of(m);
   umb_topology *topology = NULL;
-  check(umb_topology_create(&faces, m->vertex_count, NULL, &topology, &error), &error);
+  check(umb_topology_create(&faces, m->vertex_count, &options, &topology, &error), &error);
   return topology;
 }
 
@@ -119,7 +122,7 @@ void ours_free(ours *o) {
 }
 
 const umb_topology *ours_topology(ours *o) {
-  if (!o->topology) o->topology = build(o->m);
+  if (!o->topology) o->topology = build(o->m, 0, UMB_SIMD_BEST);
   return o->topology;
 }
 
@@ -242,7 +245,7 @@ void ours_run(ours *o, const char *name, umb_scalar scalar, uint32_t threads, um
   if ((given || v->call == DIRECTION_SECTIONS) && !o->normals[0].data) make_given(o);
   if (given) normals = o->normals[scalar];
   switch (v->call) {
-  case TOPOLOGY: umb_topology_destroy(build(o->m)); break;
+  case TOPOLOGY: umb_topology_destroy(build(o->m, threads, simd)); break;
   case NORMALS:
   case FROM_FACES: run_normals(o, v, &points, &how); break;
   case CURVATURES: run_curvatures(o, v, &points, &normals, &how); break;

@@ -1,10 +1,9 @@
-#define _GNU_SOURCE
+#define _POSIX_C_SOURCE 200809L
 #include "rounds.h"
 
 #include "scatter.h"
 
 #include <math.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -51,15 +50,6 @@ static int repeats_of(void (*run)(void *), void *context) {
   return seconds * 1000 > LONG_ENOUGH ? (int)ceil(LONG_ENOUGH / seconds) : 1000;
 }
 
-/* Keeps the process where it is, until `all` is set again. */
-static void bind_here(cpu_set_t *all) {
-  cpu_set_t here;
-  sched_getaffinity(0, sizeof *all, all);
-  CPU_ZERO(&here);
-  CPU_SET((size_t)sched_getcpu(), &here);
-  sched_setaffinity(0, sizeof here, &here);
-}
-
 static void print_samples(const char *key, const moment *samples, int count, double scale) {
   for (int cpu = 0; cpu < 2; cpu++) {
     printf(", \"%s%s\": [", cpu ? "cpu_" : "", key);
@@ -87,11 +77,8 @@ void time_tasks(const bench *b, const mesh *m, const task *tasks, size_t count) 
   for (size_t t = 0; t < count; t++) repeats[t] = repeats_of(tasks[t].run, tasks[t].context);
   for (size_t r = 0; r < rounds; r++)
     for (size_t t = 0; t < count; t++) {
-      cpu_set_t all;
-      if (tasks[t].bound) bind_here(&all);
       scatter[t * rounds + r] = time_runs(run_scatter, &context, scatter_repeats);
       samples[t * rounds + r] = time_runs(tasks[t].run, tasks[t].context, repeats[t]);
-      if (tasks[t].bound) sched_setaffinity(0, sizeof all, &all);
     }
   for (size_t t = 0; t < count; t++) print_task(b, m, &tasks[t], samples + t * rounds, scatter + t * rounds);
   free(context.normals);

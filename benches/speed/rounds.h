@@ -15,7 +15,6 @@ extern "C" {
 typedef struct task {
   const char *library, *name, *scalar, *level;
   int threads;
-  int bound;    /* kept on one CPU: for what has no option for the number of threads */
   double share; /* of the mesh's vertices that are computed; 1 for all */
   void (*run)(void *context);
   void *context;

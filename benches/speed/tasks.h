@@ -5,7 +5,6 @@
 #include "ours.h"
 #include "program.h"
 
-#include <cstring>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -18,14 +17,13 @@ public:
   void add(const char *library, const char *name, const char *scalar, std::function<void()> run, double share = 1) {
     runs.push_back(std::move(run));
     const auto call = [](void *context) { (*static_cast<std::function<void()> *>(context))(); };
-    tasks.push_back(task{library, name, scalar, "as built", 1, 0, share, call, &runs.back()});
+    tasks.push_back(task{library, name, scalar, "as built", 1, share, call, &runs.back()});
   }
 
   void add_ours(const char *name, umb_scalar scalar) {
     calls.push_back(ours_call{ours.get(), name, scalar, 1, UMB_SIMD_BEST});
-    const int bound = std::strcmp(name, "topology") == 0;
     const char *const scalars[] = {"f32", "f64"};
-    tasks.push_back(task{"umbilic", name, scalars[scalar], "best", 1, bound, 1, ours_run_call, &calls.back()});
+    tasks.push_back(task{"umbilic", name, scalars[scalar], "best", 1, 1, ours_run_call, &calls.back()});
   }
 
   const umb_topology *topology() { return ours_topology(ours.get()); }

@@ -184,7 +184,10 @@ pub struct umb_curvature_outputs {
 /// edge with a length): all results are 0 there but the normal, if there is one. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
 /// stands. What each method makes of a boundary is said with its constant; the status tells boundary vertices.
 ///
-/// Everything is computed in double precision, relative to each vertex and scaled by powers of two, so neither the distance
+/// Methods of one ring are computed in single precision if positions, given normals and outputs all are `f32` and faces are triangles
+/// (not tilted sections; nor Watanabe's and Meyer's methods with outputs that follow from `k1` and `k2`; nor least squares with
+/// residuals), and then only where that is off by less than about 2e-6 by the length of the shortest edge at the vertex; all else is
+/// double precision. Computation is relative to each vertex and scaled by powers of two, so neither the distance
 /// from the origin nor the size of the mesh costs accuracy. The results are the same bits for any number of threads, any
 /// vectors and any choice of vertices.
 ///

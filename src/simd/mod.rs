@@ -139,13 +139,13 @@ pub(crate) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], co
     portable::follow_chain(keys, links, count)
 }
 
-/// Fetches the cache lines of a value ahead of its use.
+/// Fetches the cache line of an address ahead of its use; any address will do.
 #[inline(always)]
-pub(crate) fn prefetch<T>(value: &T) {
+pub(crate) fn prefetch(address: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    x86::prefetch(value);
+    x86::prefetch(address);
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = value;
+    let _ = address;
 }
 
 /// The pair of vector types that a level works with.

@@ -362,11 +362,9 @@ unsafe fn at<S>(base: *const u8, stride: usize, index: u32) -> *const S {
 
 /// See [`super::prefetch`].
 #[inline(always)]
-pub(super) fn prefetch<T>(value: &T) {
-    for byte in (0..size_of::<T>()).step_by(64) {
-        // SAFETY: within the value; and a prefetch reads nothing that a program could see.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast::<i8>().add(byte)) };
-    }
+pub(super) fn prefetch(address: *const u8) {
+    // SAFETY: a prefetch reads nothing that a program could see, and never faults.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) };
 }
 
 /// [`super::follow_chain`] for a multiple of four links, with SSE2, which every x86-64 has.

@@ -3,8 +3,8 @@
 //! each, which costs nothing beside what it does.
 
 use super::ring::{PolygonFaces, Ring, RingFaces, Scratch, Triangles, VertexFans};
-use super::{NormalRows, Quantity};
-use crate::simd::{Task, Vector, Width};
+use super::{NormalRows, Part, Quantity};
+use crate::simd::{Level, Task, Vector, Width, dispatch};
 
 /// What a vertex-by-vertex path calls.
 pub(super) trait AloneCalls {
@@ -61,27 +61,42 @@ pub(super) trait BlockCalls<W: Width>: AloneCalls {
     ) -> u32;
 }
 
-/// What a sweep computes, before the width is known.
+/// What a sweep computes, without its type: the part that is not compiled for every quantity.
 pub(super) trait Calls: Sync {
     /// [`Quantity::CENTROIDS`]
-    const CENTROIDS: bool;
+    fn centroids(&self) -> bool;
     /// [`Quantity::FLAT_ANGLES`]
-    const FLAT_ANGLES: bool;
+    fn flat_angles(&self) -> bool;
     /// [`Quantity::neighbour_normals`]
     fn neighbour_normals(&self) -> Option<NormalRows<'_>>;
-    /// Hands the calls of a width to `then`.
-    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>));
+    /// Does a thread's part of a sweep with the vectors of `level`.
+    fn work(&self, level: Level, part: Part<'_, '_, '_, '_>);
 }
 
 impl<Q: Quantity> Calls for Q {
-    const CENTROIDS: bool = Q::CENTROIDS;
-    const FLAT_ANGLES: bool = Q::FLAT_ANGLES;
+    fn centroids(&self) -> bool {
+        Q::CENTROIDS
+    }
+    fn flat_angles(&self) -> bool {
+        Q::FLAT_ANGLES
+    }
     fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         Quantity::neighbour_normals(self)
     }
+    fn work(&self, level: Level, part: Part<'_, '_, '_, '_>) {
+        dispatch(level, One { quantity: self, part });
+    }
+}
+
+struct One<'a, 'c, 's, 'p, Q> {
+    quantity: &'a Q,
+    part: Part<'a, 'c, 's, 'p>,
+}
+
+impl<Q: Quantity> Task for One<'_, '_, '_, '_, Q> {
     #[inline(always)]
-    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>)) {
-        then(self);
+    fn run<W: Width>(self) {
+        self.part.run::<W>(self.quantity);
     }
 }
 
@@ -92,14 +107,29 @@ pub(super) struct Both<'a, A, B> {
 }
 
 impl<A: Quantity, B: Quantity> Calls for Both<'_, A, B> {
-    const CENTROIDS: bool = A::CENTROIDS || B::CENTROIDS;
-    const FLAT_ANGLES: bool = A::FLAT_ANGLES || B::FLAT_ANGLES;
+    fn centroids(&self) -> bool {
+        A::CENTROIDS || B::CENTROIDS
+    }
+    fn flat_angles(&self) -> bool {
+        A::FLAT_ANGLES || B::FLAT_ANGLES
+    }
     fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         None
     }
+    fn work(&self, level: Level, part: Part<'_, '_, '_, '_>) {
+        dispatch(level, Two { both: self, part });
+    }
+}
+
+struct Two<'a, 'c, 's, 'p, A, B> {
+    both: &'a Both<'a, A, B>,
+    part: Part<'a, 'c, 's, 'p>,
+}
+
+impl<A: Quantity, B: Quantity> Task for Two<'_, '_, '_, '_, A, B> {
     #[inline(always)]
-    fn with_calls<W: Width>(&self, then: impl FnOnce(&dyn BlockCalls<W>)) {
-        then(&BothCalls::<W> { first: self.first, second: self.second });
+    fn run<W: Width>(self) {
+        self.part.run::<W>(&BothCalls::<W> { first: self.both.first, second: self.both.second });
     }
 }
 

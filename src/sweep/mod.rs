@@ -27,7 +27,7 @@ pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::{Error, filled};
 use crate::parallel::{Claims, Run, for_each_chunk};
-use crate::simd::{Real, Task, Vector, Vector3, Width, dispatch};
+use crate::simd::{Real, Task, Vector, Vector3, Width};
 use crate::topology::{NO_FACE, Polygons, Topology};
 use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
 use calls::{AloneCalls, BlockCalls, Both, Calls};
@@ -131,12 +131,14 @@ fn sweep_calls(
     points: &Points<'_>,
     run: &mut Run<'_>,
     double: bool,
-    calls: &impl Calls,
+    calls: &dyn Calls,
 ) -> Result<(), Error> {
     check_points(topology, points, run.vertices)?;
     match points.array() {
-        PointArray::F32(points) => sweep_points(topology, points, run, double, calls),
-        PointArray::F64(points) => sweep_points(topology, points, run, true, calls),
+        PointArray::F32(points) => {
+            sweep_points(topology, points, run, double, calls, |sweep| AnySweep::Single(sweep))
+        }
+        PointArray::F64(points) => sweep_points(topology, points, run, true, calls, |sweep| AnySweep::Double(sweep)),
     }
 }
 
@@ -223,18 +225,19 @@ fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
     Some(whole - budget)
 }
 
-fn sweep_points<C: Calls, S: Coordinate>(
+fn sweep_points<S: Coordinate>(
     topology: &Topology,
     points: &StridedPoints<'_, S>,
     run: &mut Run<'_>,
     double: bool,
-    calls: &C,
+    calls: &dyn Calls,
+    any: impl for<'a> Fn(&'a Sweep<'a, S>) -> AnySweep<'a> + Sync,
 ) -> Result<(), Error> {
     let few = run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
     let frames = match topology.polygons() {
         Some(polygons) => {
             let normals = calls.neighbour_normals();
-            let asked = Asked { centroids: C::CENTROIDS, bends: C::FLAT_ANGLES, normals };
+            let asked = Asked { centroids: calls.centroids(), bends: calls.flat_angles(), normals };
             Some(Frames::new(points, polygons, asked, few, run.threads)?)
         }
         None => None,
@@ -254,7 +257,7 @@ fn sweep_points<C: Calls, S: Coordinate>(
     };
     let large = Mutex::new(LargeRows::new(large)?);
     let sweep = Sweep { topology, points, frames, normals, vertices, double, large: &large };
-    for_each_chunk(run, chunks, |claims| dispatch(level, Start { sweep: &sweep, calls, claims }))
+    for_each_chunk(run, chunks, |claims| calls.work(level, Part { sweep: any(&sweep), claims }))
 }
 
 /// [`NormalRows`] to load from.
@@ -283,18 +286,27 @@ struct Sweep<'a, S> {
     large: &'a Mutex<LargeRows>,
 }
 
-/// One thread's part of a sweep, before the quantity's type is forgotten.
-struct Start<'a, 'c, 'p, 's, C, S> {
-    sweep: &'a Sweep<'a, S>,
-    calls: &'a C,
+/// A sweep over positions of either precision.
+#[derive(Clone, Copy)]
+enum AnySweep<'a> {
+    Single(&'a Sweep<'a, f32>),
+    Double(&'a Sweep<'a, f64>),
+}
+
+/// One thread's part of a sweep, before its width is known.
+struct Part<'a, 'c, 's, 'p> {
+    sweep: AnySweep<'a>,
     claims: &'c mut Claims<'s, 'p>,
 }
 
-impl<C: Calls, S: Coordinate> Task for Start<'_, '_, '_, '_, C, S> {
+impl Part<'_, '_, '_, '_> {
     #[inline(always)]
-    fn run<W: Width>(self) {
-        let Start { sweep, calls, claims } = self;
-        calls.with_calls::<W>(|calls| W::call(Worker { sweep, calls, claims }));
+    fn run<W: Width>(self, calls: &dyn BlockCalls<W>) {
+        let claims = self.claims;
+        match self.sweep {
+            AnySweep::Single(sweep) => W::call(Worker { sweep, calls, claims }),
+            AnySweep::Double(sweep) => W::call(Worker { sweep, calls, claims }),
+        }
     }
 }
 
@@ -340,7 +352,9 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
                 };
                 if single {
                     let mut count = 0;
-                    for block in vertices.chunks(W::Single::LANES) {
+                    let mut blocks = vertices.chunks(W::Single::LANES).peekable();
+                    while let Some(block) = blocks.next() {
+                        sweep.prefetch(&batch, blocks.peek(), corners);
                         let Loaded { ring, scale, mut scratch, .. } =
                             sweep.load(block, corners, closed, &mut single_rows);
                         let bits = calls.single(block, &ring, &scale, &mut scratch);
@@ -353,7 +367,9 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
                     }
                     vertices = &doubtful[..count];
                 }
-                for block in vertices.chunks(W::Double::LANES) {
+                let mut blocks = vertices.chunks(W::Double::LANES).peekable();
+                while let Some(block) = blocks.next() {
+                    sweep.prefetch(&batch, blocks.peek(), corners);
                     let Loaded { ring, scale, faces, mut scratch } =
                         sweep.load(block, corners, closed, &mut double_rows);
                     let bits = if let Some(frames) = &sweep.frames {
@@ -387,6 +403,19 @@ struct Loaded<'r, V> {
 }
 
 impl<S: Coordinate> Sweep<'_, S> {
+    /// Fetches what the block that comes next needs, where memory would otherwise be waited for.
+    #[inline(always)]
+    fn prefetch(&self, batch: &Batch, next: Option<&&[u32]>, corners: usize) {
+        let Some(block) = next.filter(|_| batch.is_scattered()) else { return };
+        let rings = self.topology.rings();
+        rings.prefetch(self.points, block, corners);
+        match &self.normals {
+            Some(NeighbourNormals::Single(normals)) => rings.prefetch(normals, block, corners),
+            Some(NeighbourNormals::Double(normals)) => rings.prefetch(normals, block, corners),
+            None => {}
+        }
+    }
+
     /// Loads the rings of a block, in their own units.
     #[inline(always)]
     fn load<'r, V: Vector>(

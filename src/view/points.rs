@@ -2,7 +2,7 @@
 
 use super::checked_stride;
 use crate::error::Error;
-use crate::simd::{MAX_LANES, Real, Vector, Vector3};
+use crate::simd::{MAX_LANES, Real, Vector, Vector3, prefetch};
 use glam::{DVec3, Vec3};
 use std::any::TypeId;
 use std::marker::PhantomData;
@@ -153,6 +153,12 @@ impl<'a, S: Coordinate, const N: usize> StridedPoints<'a, S, N> {
     /// The bytes from a point to the next.
     pub(crate) fn stride(&self) -> usize {
         self.stride
+    }
+
+    /// Fetches a point into the cache.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, index: usize) {
+        prefetch(self.base.wrapping_add(index * self.stride));
     }
 
     /// Whether a point starts where the one before it ends.

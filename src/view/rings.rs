@@ -38,17 +38,30 @@ pub(crate) struct Batch {
     slices: [Slice; CLASSES],
     count: usize,
     slice_count: usize,
+    scattered: bool,
 }
 
 impl Batch {
     pub(crate) fn new() -> Self {
-        Batch { vertices: [0; WINDOW], slices: [Slice { first: 0, class: 0 }; CLASSES], count: 0, slice_count: 0 }
+        Batch {
+            vertices: [0; WINDOW],
+            slices: [Slice { first: 0, class: 0 }; CLASSES],
+            count: 0,
+            slice_count: 0,
+            scattered: false,
+        }
     }
 
     /// How many classes occur.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
         self.slice_count
+    }
+
+    /// Whether the neighbours lie all over the mesh, so that each is a cache miss.
+    #[inline(always)]
+    pub(crate) fn is_scattered(&self) -> bool {
+        self.scattered
     }
 
     /// A class and its vertices.
@@ -195,6 +208,30 @@ impl Rings {
         let slices = &self.slices[self.window_slices[window] as usize..self.window_slices[window + 1] as usize];
         batch.slice_count = slices.len();
         batch.slices[..slices.len()].copy_from_slice(slices);
+        batch.scattered = self.is_scattered(&batch.vertices[..batch.count]);
+    }
+
+    /// Whether the rings of vertices that follow each other start far from each other, in a sample.
+    fn is_scattered(&self, vertices: &[u32]) -> bool {
+        const SAMPLE: usize = 16;
+        const FAR: u32 = 4096;
+        let step = vertices.len() / SAMPLE;
+        if step < 2 {
+            return false;
+        }
+        let first = |vertex: u32| self.ring(vertex as usize).first().copied().unwrap_or(vertex);
+        let far = |pair: &[u32]| first(pair[0]).abs_diff(first(pair[1])) > FAR;
+        vertices.chunks_exact(step).filter(|chunk| far(&chunk[..2])).count() > SAMPLE / 2
+    }
+
+    /// Fetches the points of the neighbours of some vertices of a class of `corners` corners into the cache.
+    #[inline(always)]
+    pub(crate) fn prefetch<S: Coordinate>(&self, points: &StridedPoints<'_, S>, vertices: &[u32], corners: usize) {
+        for &vertex in vertices {
+            for &neighbour in &self.ring(vertex as usize)[..corners] {
+                points.prefetch(neighbour as usize);
+            }
+        }
     }
 
     /// As [`Rings::fill_window`] for at most [`WINDOW`] vertices of the caller's choice.
@@ -207,7 +244,7 @@ impl Rings {
         for (code, &vertex) in codes.iter_mut().zip(list) {
             *code = self.classes[vertex as usize];
         }
-        let Batch { vertices, slices, count, slice_count } = batch;
+        let Batch { vertices, slices, count, slice_count, .. } = batch;
         (*count, *slice_count) = (list.len(), 0);
         bucket(
             codes,
@@ -217,6 +254,7 @@ impl Rings {
                 *slice_count += 1;
             },
         );
+        batch.scattered = self.is_scattered(list);
     }
 
     /// Loads the edges from up to `V::LANES` vertices of one class to their neighbours, lane by lane.

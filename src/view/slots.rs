@@ -75,8 +75,13 @@ impl<const WORDS: usize> SlotsPart<'_, WORDS> {
     #[inline(always)]
     pub(crate) fn prefetch(&self, vertex: u32) {
         let place = (vertex as usize).wrapping_sub(self.first);
-        if place < self.lines.len() {
-            prefetch(&self.lines[place]);
+        if let Some(line) = self.lines.get(place) {
+            // The ends of what may be two cache lines.
+            let first = std::ptr::from_ref(line).cast::<u8>();
+            prefetch(first);
+            if size_of::<Records<WORDS>>() > LINE {
+                prefetch(first.wrapping_add(size_of::<Records<WORDS>>() - 1));
+            }
         }
     }
 
