@@ -8,7 +8,7 @@ use common::mesh::{self, Mesh, letter_prism, ring_sphere, soup, torus};
 use common::oracle::cleaned;
 use std::collections::{HashMap, HashSet};
 use umbilic::capi::*;
-use umbilic::{Faces, Level, Topology, TopologyStats};
+use umbilic::{Faces, Level, Topology};
 
 fn fans(handle: &Handle, vertex: usize) -> Vec<(Vec<u32>, usize, bool)> {
     let (mut count, error) = (0, std::ptr::null_mut());
@@ -285,7 +285,7 @@ fn threads_and_vectors_build_the_same() {
                 let built = all(threads, level);
                 assert_eq!(built.ring_offsets(), base.ring_offsets());
                 assert!(built.ring_neighbours() == base.ring_neighbours() && built.flags() == base.flags());
-                let stats = |topology: &Topology| TopologyStats { bytes: 0, ..topology.stats().unwrap() };
+                let stats = |topology: &Topology| topology.stats().unwrap();
                 assert_eq!(stats(&built), stats(&base), "{threads} threads, {}", level.name());
                 for vertex in 0..mesh.positions.len() {
                     assert!(built.fans(vertex).eq(base.fans(vertex)), "vertex {vertex}, {threads} threads");
@@ -334,5 +334,67 @@ fn an_index_out_of_range_is_the_first_on_any_number_of_threads() {
             vertex_count: count as u64,
         };
         assert_eq!(error, expected);
+    }
+}
+
+/// Blocks of sixteen vertices: a hub of forty triangles that share no edge, and fifteen centres of closed fans. Borders are
+/// many, so that no room is left over.
+#[test]
+fn rings_beside_hubs_and_many_borders() {
+    for corners in [5, 8, 9, 16, 17] {
+        for blocks in 1..24 {
+            for polygons in [false, true] {
+                let (mut faces, mut rims) = (vec![], 0);
+                let first = blocks * (80 + 15 * corners);
+                for block in 0..blocks {
+                    let hub = first + 16 * block;
+                    for _ in 0..40 {
+                        faces.push(vec![hub, rims, rims + 1]);
+                        rims += 2;
+                    }
+                    for centre in hub + 1..hub + 16 {
+                        faces.extend((0..corners).map(|i| vec![centre, rims + i, rims + (i + 1) % corners]));
+                        rims += corners;
+                    }
+                }
+                assert_eq!(rims, first);
+                if polygons {
+                    faces.push(vec![0, 2, 4, 6]);
+                }
+                let mesh = Mesh::new("hubs", vec![[0.0; 3]; (first + 16 * blocks) as usize], faces);
+                let stats = Handle::new(&mesh).stats();
+                assert_eq!(stats.max_valence, 80);
+                let handle = Handle::new(&mesh);
+                for vertex in first..first + 16 * blocks {
+                    let fans = fans(&handle, vertex as usize);
+                    let hub = (vertex - first) % 16 == 0;
+                    assert_eq!(fans.len(), if hub { 40 } else { 1 });
+                    assert!(hub || fans[0].1 == corners as usize && fans[0].2);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn wide_indices_are_not_cut_short() {
+    let mesh = everything(5, 9);
+    let count = mesh.positions.len();
+    let offsets: Vec<u64> = mesh.offsets.iter().map(|&offset| offset as u64).collect();
+    for beyond in [1u64 << 32, (1 << 32) + 1, u64::MAX, (1 << 63) + 2] {
+        let mut triangles: Vec<u64> = (0..3000u64).map(|i| i % 1000).collect();
+        triangles[1234] = beyond;
+        let found = Topology::new(&Faces::triangles(&triangles[..]).unwrap(), 1000).unwrap_err();
+        let expected = |position, vertex_count| umbilic::Error::IndexOutOfRange {
+            what: "faces.indices",
+            position,
+            index: beyond as i128,
+            vertex_count,
+        };
+        assert_eq!(found, expected(1234, 1000));
+        let mut indices: Vec<u64> = mesh.indices.iter().map(|&index| index as u64).collect();
+        indices[777] = beyond;
+        let found = Topology::new(&Faces::polygons(&indices[..], &offsets[..]).unwrap(), count).unwrap_err();
+        assert_eq!(found, expected(777, count as u64));
     }
 }

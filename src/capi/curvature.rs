@@ -187,7 +187,7 @@ pub struct umb_curvature_outputs {
 /// Methods of one ring are computed in single precision if positions, given normals and outputs all are `f32` and faces are triangles
 /// (not tilted sections; nor Watanabe's and Meyer's methods with outputs that follow from `k1` and `k2`; nor least squares with
 /// residuals), and then only where that is off by less than about 2e-6 by the length of the shortest edge at the vertex; all else is
-/// double precision. Computation is relative to each vertex and scaled by powers of two, so neither the distance
+/// double precision. So asking for an output in `f64`, or for one of those named, changes the last bits of others. Computation is relative to each vertex and scaled by powers of two, so neither the distance
 /// from the origin nor the size of the mesh costs accuracy. The results are the same bits for any number of threads, any
 /// vectors and any choice of vertices.
 ///

@@ -45,7 +45,8 @@ pub struct umb_topology(pub(super) Topology);
 pub struct umb_topology_options {
     /// `sizeof(umb_topology_options)`; 0 stands for the size of its first version.
     pub struct_size: u32,
-    /// The number of threads, the calling one among them; 0 for as many as pay, at most one a core. They end with the call.
+    /// The number of threads, the calling one among them; 0 for as many as pay, at most one a core. At most 256 are used, and
+    /// they end with the call.
     pub threads: u32,
     /// The widest vectors to use: a `UMB_SIMD_` constant.
     pub simd: umb_simd,
@@ -123,8 +124,8 @@ pub struct umb_fan {
 /// its shape.
 ///
 /// Cost: linear in the number of corners, apart from sorting the corners of vertices with more than eight of them or with
-/// several fans. Held are about 16 bytes a triangle, or 60 a quad; 33 more a triangle, or 97 a quad, while building, and
-/// with several threads 12 more. The handle is the same on any number of threads, with any vectors.
+/// several fans; every thread reads all faces. Held are about 16 bytes a triangle, or 60 a quad. While building, 65 more a vertex,
+/// or 97 where there are polygons, and with several threads 12 more a triangle. The handle is the same on any number of threads, with any vectors.
 ///
 /// @param faces the faces; read only during the call
 /// @param vertex_count the number of vertices, at most 2^32 - 1, as of faces; there may be at most 2^31 - 1 corners

@@ -42,7 +42,9 @@ pub(super) fn looks_at_neighbours(method: Method) -> bool {
 
 /// Whether a method of one ring is computed in single precision: where all that comes in and goes out is.
 pub(super) fn is_single(points: &Points<'_>, options: &CurvatureOptions<'_>, outputs: &CurvatureOutputs<'_>) -> bool {
+    let unused = options.method == Method::AngleDefect && outputs.normal.is_none();
     let given = match options.normals {
+        _ if unused => false,
         VertexNormals::Given(normals) => normals.is_double(),
         VertexNormals::Computed(weight) => !is_one_ring(weight),
     };

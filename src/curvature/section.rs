@@ -211,7 +211,8 @@ pub(crate) fn edge<V: Vector>(
     };
     let safe = V::select(usable, divisor, V::one());
     let doubtful = if V::Scalar::SINGLE {
-        let clear = (squared * V::constant(STEEP)).lt(tangential).and(long);
+        let least = V::splat(V::Scalar::TINY) * V::constant(64.0);
+        let clear = (squared * V::constant(STEEP)).max(least).lt(tangential);
         V::select(clear, zero, V::constant(f64::NAN))
     } else {
         zero

@@ -55,7 +55,7 @@ impl RingEstimator for Taubin {
         let [areas, ..] = &mut scratch.numbers;
         ring.fill_corners(areas, |corner| {
             let direction = corner.direction() * corner.area();
-            direction.squared().sqrt()
+            direction.squared().sqrt() + corner.doubt()
         });
         for index in 0..ring.edge_count() {
             let edge = ring.edges[index];

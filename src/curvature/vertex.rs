@@ -5,8 +5,7 @@ use super::corrected_measure::CorrectedMeasure;
 use super::goldfeather::Goldfeather;
 use super::measure::{Region, cells_needed, over_region};
 use super::normal_cycle::NormalCycle;
-use super::one_ring::weight_on_the_way;
-use super::one_ring::{Way, is_single, looks_at_one_ring, over_one_ring};
+use super::one_ring::{Way, is_single, looks_at_one_ring, over_one_ring, weight_on_the_way};
 use super::patch::PatchCurvatures;
 use super::quadric::Quadric;
 use super::ring::OwnNormals;
@@ -16,7 +15,7 @@ use crate::fit::{AdaptiveModel, JetFit, JetOptions, MOST_DEGREE};
 use crate::normals::{NormalOutputs, Weight, reference_normals, vertex_normals};
 use crate::parallel::{Run, fill};
 use crate::simd::Real;
-use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS, NormalRows, sweep_patches};
+use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS, NormalRows, check_counts, sweep_patches};
 use crate::topology::{Topology, closure};
 use crate::view::{Output, Points, Zero, zeroed};
 use glam::DVec3;
@@ -59,7 +58,8 @@ pub struct CurvatureOptions<'a> {
 ///
 /// Methods of one ring are computed in single precision where positions, given normals and outputs all are `f32` and faces are
 /// triangles, and then in double precision wherever that could be off by more than about 2e-6 by the length of the shortest edge
-/// at the vertex, which is what the rounding of the positions to single precision costs as well; all else in double precision.
+/// at the vertex (to the power of the result's own unit), which is what the rounding of the positions to single precision costs as
+/// well; all else in double precision.
 /// Results are pointwise unless their name says integrated.
 ///
 /// # Errors
@@ -78,8 +78,7 @@ pub fn curvatures(
     if options.method == Method::Jet {
         jet_options(options)?;
     }
-    check_count(topology, points)?;
-    check_list(topology, run.vertices)?;
+    check_counts(topology, points, run.vertices)?;
     if options.method == Method::AdaptiveJet {
         return adaptive_curvatures(topology, points, options, run, outputs);
     }
@@ -232,24 +231,6 @@ fn region(options: &CurvatureOptions<'_>) -> Result<Region, Error> {
     Ok(Region::Rings(options.rings.max(1)))
 }
 
-fn check_count(topology: &Topology, points: &Points<'_>) -> Result<(), Error> {
-    let (found, expected) = (points.len() as u64, topology.vertex_count() as u64);
-    if found == expected { Ok(()) } else { Err(Error::Size { what: "points.count", found, expected }) }
-}
-
-/// Refuses vertices to compute that are none.
-fn check_list(topology: &Topology, vertices: Option<&[u32]>) -> Result<(), Error> {
-    let vertex_count = topology.vertex_count();
-    let beyond = |&vertex: &u32| vertex as usize >= vertex_count;
-    let Some((vertices, position)) =
-        vertices.and_then(|vertices| vertices.iter().position(beyond).map(|position| (vertices, position)))
-    else {
-        return Ok(());
-    };
-    let (index, vertex_count) = (vertices[position] as i128, vertex_count as u64);
-    Err(Error::IndexOutOfRange { what: "run.vertices", position: position as u64, index, vertex_count })
-}
-
 /// Checks counts and the list of vertices, then unit normals of these, as a part of a run.
 pub(super) fn unit_normals(
     topology: &Topology,
@@ -257,8 +238,7 @@ pub(super) fn unit_normals(
     asked: VertexNormals<'_>,
     run: &mut Run<'_>,
 ) -> Result<Vec<[f64; 3]>, Error> {
-    check_count(topology, points)?;
-    check_list(topology, run.vertices)?;
+    check_counts(topology, points, run.vertices)?;
     run.part(0.0, NORMAL_SHARE, |run| normals_of(topology, points, asked, run))
 }
 

@@ -49,7 +49,7 @@ impl RingEstimator for Watanabe {
         sums: &mut Sums<V>,
     ) {
         let [angles, ..] = &mut scratch.numbers;
-        ring.fill_corners(angles, |corner| corner.unit_and_angle().1);
+        ring.fill_corners(angles, |corner| corner.unit_and_angle().1 + corner.doubt());
         for index in 0..ring.edge_count() {
             let EdgeCurvature { curvature, weight: counted } =
                 section::edge(ring.edges[index], ring.squared[index], frame.normal, self.section);

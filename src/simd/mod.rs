@@ -257,13 +257,13 @@ mod tests {
         };
         let mut closed = 0;
         for _ in 0..200_000 {
-            let count = 1 + below(8) as usize;
+            let count = 1 + below(16) as usize;
             // A cycle through a few keys in random order, sometimes spoilt.
             let mut cycle: Vec<u32> = (0..count as u32).map(|key| key * 3).collect();
             for i in (1..count).rev() {
                 cycle.swap(i, below(i as u64 + 1) as usize);
             }
-            let (mut keys, mut links) = ([u32::MAX; 8], [7u32; 8]);
+            let (mut keys, mut links) = ([u32::MAX; 16], [7u32; 16]);
             for (slot, &key) in cycle.iter().enumerate() {
                 keys[slot] = key;
                 links[slot] = (cycle.iter().position(|&other| other == key).map(|at| cycle[(at + 1) % count]))
@@ -275,10 +275,10 @@ mod tests {
                 links.swap(i, other);
             }
             if below(2) == 0 {
-                keys[below(count as u64) as usize] = below(24) as u32;
+                keys[below(count as u64) as usize] = below(48) as u32;
             }
             if below(3) == 0 {
-                links[below(count as u64) as usize] = 1 + below(24) as u32;
+                links[below(count as u64) as usize] = 1 + below(48) as u32;
             }
             let expected = portable::follow_chain(&keys, &links, count);
             let found = follow_chain(&keys, &links, count);

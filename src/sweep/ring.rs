@@ -182,14 +182,17 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
         let kept = V::splat(V::Scalar::TINY).lt(self.cross_squared);
         V::select(kept, self.cross_squared, V::zero()).sqrt()
     }
-    /// In single precision not a number where the edges are nearly parallel, so that a sum with such a corner in it is left to
+    /// In single precision not a number where the edges are nearly parallel, or so short that their cross product has lost its
+    /// digits, so that a sum with such a corner in it is left to
     /// double precision; 0 otherwise.
     #[inline(always)]
     pub fn doubt(&self) -> V {
         if !V::Scalar::SINGLE {
             return V::zero();
         }
-        let clear = (self.product * V::constant(1.0 / 256.0)).lt(self.cross_squared);
+        // With some room, since the cross product is compared with TINY in other places, and edges are up to 4 long.
+        let least = V::splat(V::Scalar::TINY) * V::constant(64.0);
+        let clear = (self.product * V::constant(1.0 / 256.0)).max(least).lt(self.cross_squared);
         V::select(clear, V::zero(), V::constant(f64::NAN))
     }
     /// [`Face::direction`]

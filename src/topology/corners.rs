@@ -123,9 +123,8 @@ impl Corners<WITH_FACE> for Polygons {
     fn hand_out(&self, part: &mut SlotsPart<'_, WITH_FACE>) -> Result<Vec<Spilt<WITH_FACE>>, Error> {
         let mut spill = Spill(Vec::new());
         for face in 0..self.face_count() {
-            for &ahead in self.face((face + AHEAD).min(self.face_count() - 1)) {
-                part.prefetch(ahead);
-            }
+            let ahead = (face + AHEAD).min(self.face_count() - 1);
+            self.face(ahead).iter().take(8).for_each(|&vertex| part.prefetch(vertex));
             let corners = self.face(face);
             let mut prev = corners.last().copied().unwrap_or(0);
             for (index, &vertex) in corners.iter().enumerate() {

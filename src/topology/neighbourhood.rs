@@ -14,7 +14,8 @@
 //! a vertex is new. Which are, says the number of the gather that met a vertex last. Of a shuffled mesh these two bytes a vertex
 //! stay in cache where positions do not.
 //!
-//! Cost: an entry a look; two bytes a vertex of the mesh, of which only pages are touched where neighbourhoods are.
+//! Cost: an entry a look; two bytes a vertex of the mesh, of which only pages are touched where neighbourhoods are, until they are
+//! cleared after 65,535 gathers: on a mesh of 10⁸ vertices that is a fifth of the time.
 
 use super::{NO_FACE, Polygons, Topology};
 use crate::error::Error;

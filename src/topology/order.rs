@@ -10,7 +10,7 @@
 use super::corners::{Record, Spilt};
 use super::fans::FanBuilder;
 use super::{NO_FACE, status};
-use crate::error::Error;
+use crate::error::{Error, reserved};
 use crate::simd::{Level, Task, Width, dispatch, follow_chain};
 use crate::view::{BLOCK, MAX_LANE_CORNERS, RingClass, RingPart, SLOTS, SlotsPart};
 
@@ -73,7 +73,6 @@ impl<'a, const WORDS: usize> Order<'a, '_, '_, WORDS> {
                 7 => self.follow::<7>(block, &counts, &mut chains),
                 _ => self.follow::<SLOTS>(block, &counts, &mut chains),
             }
-            self.rings.reserve(BLOCK * SLOTS)?;
             #[expect(clippy::needless_range_loop, reason = "a lane is a column of every row")]
             for lane in 0..BLOCK.min(vertex_count - block * BLOCK) {
                 let corners = counts[lane] as usize;
@@ -83,6 +82,7 @@ impl<'a, const WORDS: usize> Order<'a, '_, '_, WORDS> {
                         neighbours[slot] = chains.neighbours[slot][lane];
                         faces[slot] = chains.faces[slot][lane];
                     }
+                    self.rings.reserve(SLOTS)?;
                     self.rings.push(&neighbours, &faces, corners);
                     RingClass::Lanes { corners, closed: true }
                 } else {
@@ -139,18 +139,18 @@ impl<'a, const WORDS: usize> Order<'a, '_, '_, WORDS> {
         let spilt = if corners > SLOTS { self.take_spilt(vertex) } else { &[] };
         let records = self.slots.records(place).chain(spilt.iter().map(|spilt| spilt.record));
         let count = corners.min(SLOTS) + spilt.len();
-        if (SLOTS + 1..=WIDE).contains(&count) {
+        if count <= WIDE {
             let mut window = [[0; WORDS]; WIDE];
             for (slot, record) in window.iter_mut().zip(records) {
                 *slot = record;
             }
-            if self.close(&window, count)? {
+            // Of fewer it is known that they do not close.
+            if count > SLOTS && self.close(&window, count)? {
                 return Ok(RingClass::Lanes { corners: count, closed: true });
             }
             return self.sort(vertex, place, &window[..count]);
         }
-        let mut gathered = Vec::new();
-        gathered.try_reserve_exact(count)?;
+        let mut gathered = reserved(count)?;
         gathered.extend(records);
         self.sort(vertex, place, &gathered)
     }

@@ -111,14 +111,9 @@ impl<'a> Points<'a> {
     }
 }
 
-impl<'a, S> From<&'a [[S; 3]]> for StridedPoints<'a, S> {
+impl<'a, S: Coordinate> From<&'a [[S; 3]]> for StridedPoints<'a, S> {
     fn from(points: &'a [[S; 3]]) -> Self {
-        StridedPoints {
-            base: points.as_ptr().cast(),
-            count: points.len(),
-            stride: size_of::<[S; 3]>(),
-            memory: PhantomData,
-        }
+        StridedPoints::of_slice(points)
     }
 }
 

@@ -25,6 +25,8 @@ struct Stretch {
     faces: Option<Vec<u32>>,
     slices: Vec<Slice>,
     window_slices: Vec<u32>,
+    /// How many entries have been checked.
+    sealed: usize,
 }
 
 impl RingTable {
@@ -41,8 +43,9 @@ impl RingTable {
             faces: faces.then(Vec::new),
             slices: Vec::new(),
             window_slices: Vec::new(),
+            sealed: 0,
         });
-        let offsets = zeroed(vertex_count + 1)?;
+        let offsets = zeroed(vertex_count.checked_add(1).ok_or(Error::OutOfMemory)?)?;
         Ok(RingTable { offsets, classes: zeroed(vertex_count)?, order: zeroed(vertex_count)?, stretch, stretches })
     }
 
@@ -65,7 +68,6 @@ impl RingTable {
             order,
             stretch,
             filled: 0,
-            sealed: 0,
         })
     }
 
@@ -81,6 +83,9 @@ impl RingTable {
         let RingTable { mut offsets, classes, order, stretch, mut stretches } = self;
         let windows = classes.len().div_ceil(WINDOW);
         assert_eq!(stretches.iter().map(|stretch| stretch.window_slices.len()).sum::<usize>(), windows);
+        for Stretch { entries, faces, sealed, .. } in &stretches {
+            assert!(entries.len() == *sealed && faces.as_ref().is_none_or(|faces| faces.len() == *sealed));
+        }
         let mut slices = reserved(stretches.iter().map(|stretch| stretch.slices.len()).sum())?;
         let mut window_slices = reserved(windows + 1)?;
         for stretch in &stretches {
@@ -148,8 +153,6 @@ pub(crate) struct RingPart<'a> {
     stretch: &'a mut Stretch,
     /// How many vertices have their ring.
     filled: usize,
-    /// How many entries have been checked.
-    sealed: usize,
 }
 
 impl RingPart<'_> {
@@ -175,6 +178,7 @@ impl RingPart<'_> {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub(crate) fn start(&mut self, count: usize) -> Result<(), Error> {
+        assert_eq!(self.filled, 0);
         self.stretch.entries = room(count)?;
         if let Some(faces) = &mut self.stretch.faces {
             *faces = room(count)?;
@@ -252,16 +256,17 @@ impl RingPart<'_> {
     fn seal(&mut self) -> Result<(), Error> {
         let window = (self.filled - 1) / WINDOW * WINDOW..self.filled;
         let last = self.vertex_count - 1;
-        let entries = &self.stretch.entries[self.sealed..];
+        let entries = &self.stretch.entries[self.stretch.sealed..];
         let largest = entries.iter().fold(0, |largest, &entry| entry.max(largest)) as usize;
         assert!(entries.is_empty() || largest <= last);
         if !entries.is_empty() && largest == last {
             for (index, _) in entries.iter().enumerate().filter(|(_, entry)| **entry as usize == last) {
-                let place = self.ends[..self.filled].partition_point(|&end| end as usize <= self.sealed + index);
+                let place =
+                    self.ends[..self.filled].partition_point(|&end| end as usize <= self.stretch.sealed + index);
                 self.classes[place] = RingClass::Alone.code();
             }
         }
-        self.sealed += entries.len();
+        self.stretch.sealed += entries.len();
         if self.first + self.filled == self.vertex_count
             && self.classes[self.filled - 1] != RingClass::Isolated.code()
         {

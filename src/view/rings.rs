@@ -313,7 +313,7 @@ impl Rings {
             starts[lane] = self.offsets[vertex];
         }
         let neighbours = &mut edges[..corners + !closed as usize];
-        // SAFETY: each of these vertices was seen in `new` to be of this class: the vertex itself and its neighbours, as
+        // SAFETY: each of these vertices was seen by `RingPart::seal` to be of this class: the vertex itself and its neighbours, as
         // many as there are edges, are inside the tables and are vertices other than the last.
         unsafe {
             if points.is_packed() {

@@ -3,8 +3,8 @@
 //! The lines are never cleared, since that would cost as much as filling them: a count at each vertex says how many of
 //! its slots hold a record. Records beyond the last slot are the caller's to keep.
 
-use super::memory::room;
-use crate::error::{Error, filled};
+use super::memory::{room, zeroed};
+use crate::error::Error;
 use crate::simd::prefetch;
 use std::mem::MaybeUninit;
 
@@ -33,13 +33,13 @@ impl<const WORDS: usize> Slots<WORDS> {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub(crate) fn new(vertex_count: usize) -> Result<Self, Error> {
-        let vertices = vertex_count.next_multiple_of(BLOCK);
+        let vertices = vertex_count.checked_next_multiple_of(BLOCK).ok_or(Error::OutOfMemory)?;
         let length = vertices.checked_mul(WORDS * SLOTS).and_then(|words| words.checked_add(LINE / 4));
         let length = length.ok_or(Error::OutOfMemory)?;
         let mut words = room(length)?;
         words.resize_with(length, MaybeUninit::uninit);
         let skipped = words.as_ptr().align_offset(LINE).min(LINE / 4);
-        Ok(Slots { words, skipped, counts: filled(vertices, 0)? })
+        Ok(Slots { words, skipped, counts: zeroed(vertices)? })
     }
 
     /// The slots of `vertices` vertices after the other, the last perhaps of fewer; `vertices` is a multiple of [`BLOCK`].
