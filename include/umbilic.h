@@ -203,7 +203,8 @@ typedef struct umb_topology_options {
    */
   uint32_t struct_size;
   /**
-   * The number of threads, the calling one among them; 0 for as many as pay, at most one a core. They end with the call.
+   * The number of threads, the calling one among them; 0 for as many as pay, at most one a core. At most 256 are used, and
+   * they end with the call.
    */
   uint32_t threads;
   /**
@@ -1350,8 +1351,8 @@ const char *umb_status_string(umb_status status);
  * its shape.
  *
  * Cost: linear in the number of corners, apart from sorting the corners of vertices with more than eight of them or with
- * several fans. Held are about 16 bytes a triangle, or 60 a quad; 33 more a triangle, or 97 a quad, while building, and
- * with several threads 12 more. The handle is the same on any number of threads, with any vectors.
+ * several fans; every thread reads all faces. Held are about 16 bytes a triangle, or 60 a quad. While building, 65 more a vertex,
+ * or 97 where there are polygons, and with several threads 12 more a triangle. The handle is the same on any number of threads, with any vectors.
  *
  * @param faces the faces; read only during the call
  * @param vertex_count the number of vertices, at most 2^32 - 1, as of faces; there may be at most 2^31 - 1 corners
@@ -1619,7 +1620,10 @@ umb_status umb_face_normals(const struct umb_faces *faces,
  * edge with a length): all results are 0 there but the normal, if there is one. Nothing is ever NaN or infinite; beyond the scalar's range its largest value
  * stands. What each method makes of a boundary is said with its constant; the status tells boundary vertices.
  *
- * Everything is computed in double precision, relative to each vertex and scaled by powers of two, so neither the distance
+ * Methods of one ring are computed in single precision if positions, given normals and outputs all are `f32` and faces are triangles
+ * (not tilted sections; nor Watanabe's and Meyer's methods with outputs that follow from `k1` and `k2`; nor least squares with
+ * residuals), and then only where that is off by less than about 2e-6 by the length of the shortest edge at the vertex; all else is
+ * double precision. So asking for an output in `f64`, or for one of those named, changes the last bits of others. Computation is relative to each vertex and scaled by powers of two, so neither the distance
  * from the origin nor the size of the mesh costs accuracy. The results are the same bits for any number of threads, any
  * vectors and any choice of vertices.
  *
