@@ -16,7 +16,7 @@ use super::principal::{Frame, Operator};
 use super::ring::{RingEstimator, own_normals};
 use crate::error::{Error, reserved};
 use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
-use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
+use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3, each};
 use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Neighbourhood, Topology, closure, status};
 use crate::view::{Output, Points, zeroed};
@@ -174,9 +174,10 @@ impl<E: MeasureEstimator> Quantity for Cells<'_, E> {
         let mut measure = Measure::zero();
         E::add(ring, &frame, scratch, &mut measure);
         let Measure { area, mean, gaussian, tensor: [xx, yy, zz, xy, yz, zx] } = measure;
-        let rows = [area, mean, gaussian, xx, yy, zz, xy, yz, zx, scale].map(V::to_lanes);
+        let cell = [area, mean, gaussian, xx, yy, zz, xy, yz, zx, scale];
+        let rows: [_; 10] = each([V::Scalar::ZERO; MAX_LANES], |index| cell[index].to_lanes());
         for (lane, &vertex) in vertices.iter().enumerate() {
-            self.cells.write(vertex as usize, rows.map(|row| row[lane].into()));
+            self.cells.write(vertex as usize, each(0.0, |index| rows[index][lane].into()));
         }
         ring.overflowed() & ((1u32 << vertices.len()) - 1)
     }

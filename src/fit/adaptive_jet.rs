@@ -32,7 +32,7 @@ use super::adaptive_model::{AdaptiveModel, Coordinates};
 use super::heights::{Frame, Heights, plain_residuals, prepare, scratch, weigh};
 use super::ridge::{Setting, TERMS, solve, squared_residual};
 use super::surface::Surface;
-use crate::simd::{Mask, Vector};
+use crate::simd::{Mask, Vector, each};
 use crate::sweep::Patch;
 
 /// A neighbourhood may extend so many mean edge lengths of its vertex.
@@ -120,7 +120,7 @@ impl AdaptiveFit<'_> {
     ) -> (Setting<V>, V) {
         let model = &self.model;
         let load = |number: &dyn Fn(usize) -> f64| {
-            V::from_lanes(&std::array::from_fn(|lane| number(*vertices.get(lane).unwrap_or(&vertices[0]) as usize)))
+            V::from_lanes(&each(0.0, |lane| number(*vertices.get(lane).unwrap_or(&vertices[0]) as usize)))
         };
         let own = load(&|vertex| self.edge_lengths[vertex]);
         let unit = V::one() / (own * scale);
@@ -139,9 +139,9 @@ impl AdaptiveFit<'_> {
         }
         let graded = if model.size_exponent == 0 { own * V::constant(1.0 / model.edge_length) } else { V::one() };
         let mut factor = V::one();
-        let sizes_squared = model.sizes.map(|size| {
+        let sizes_squared = each(V::zero(), |index| {
             factor = factor * graded;
-            let size = (V::constant(size) * factor).max(V::constant(1e-100)).min(V::constant(1e100));
+            let size = (V::constant(model.sizes[index]) * factor).max(V::constant(1e-100)).min(V::constant(1e100));
             size * size
         });
         let setting = Setting {
@@ -246,7 +246,7 @@ impl AdaptiveFit<'_> {
         let (slopes, second) = ([c[1], c[2]], [two * c[3], c[4], two * c[5]]);
         let second = second_derivatives(setting.coordinates, slopes, second);
         let mut surface = Surface::of_derivatives(&axes, slopes, second);
-        surface.shape = surface.shape.map(|x| x * unit);
+        surface.shape.iter_mut().for_each(|x| *x = *x * unit);
         // Edges of no size beside that of the neighbourhood leave numbers that no unit could bring back into range.
         let inside = V::constant(1.0 / LARGEST_UNIT).lt(unit).and(unit.lt(V::constant(LARGEST_UNIT)));
         AdaptiveJet {

@@ -36,7 +36,7 @@ pub(crate) fn factor_and_solve<V: Vector, const K: usize>(
         for row in k + 1..K {
             let factor = column[row] * inverse[k];
             matrix[row][k] = factor;
-            for (x, other) in matrix[row][k + 1..=row].iter_mut().zip(&column[k + 1..]) {
+            for (x, other) in matrix[row][k + 1..row + 1].iter_mut().zip(&column[k + 1..]) {
                 *x = *x - factor * *other;
             }
             b[row] = b[row] - factor * b[k];

@@ -163,7 +163,8 @@ pub(super) fn weigh<V: Vector<Scalar = f64>>(heights: &mut Heights<'_, V>, setti
         let (u, v, w) = (heights.u[row], heights.v[row], heights.w[row]);
         // A point so far away that its powers would leave the range counts for nothing anyway.
         let near = (u * u + v * v + w * w).lt(V::constant(FARTHEST));
-        let [u, v, w] = [u, v, w].map(|x| V::select(near, x, V::zero()));
+        let zero = V::zero();
+        let (u, v, w) = (V::select(near, u, zero), V::select(near, v, zero), V::select(near, w, zero));
         (heights.u[row], heights.v[row], heights.w[row]) = (u, v, w);
         let flat = u * u + v * v;
         let there = V::constant(row as f64).lt(setting.count).and(near);

@@ -24,7 +24,7 @@ use super::sample::{Collector, Sample};
 use super::surroundings::Surroundings;
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::simd::{MAX_LANES, Mask, Task, Vector, Width, dispatch};
+use crate::simd::{MAX_LANES, Mask, Task, Vector, Width, dispatch, each};
 use crate::sweep::sweep_patches;
 use crate::topology::{Neighbourhood, Topology};
 use crate::view::{Points, zeroed};
@@ -188,7 +188,7 @@ struct Block<V> {
 impl<V: Vector<Scalar = f64>> Block<V> {
     fn new(samples: &[Sample]) -> Self {
         let load = |number: &dyn Fn(&Sample) -> f64| {
-            V::from_lanes(&std::array::from_fn(|lane| number(samples.get(lane).unwrap_or(&samples[0]))))
+            V::from_lanes(&each(0.0, |lane| number(samples.get(lane).unwrap_or(&samples[0]))))
         };
         let most = samples.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
         let rows = |column: &dyn Fn(&Sample) -> &Vec<f64>, beyond: f64| {
@@ -392,9 +392,9 @@ fn evaluate<V: Vector<Scalar = f64>>(
     }
     let grade = if trial.size_exponent == 0 { block.own_grade } else { one };
     let mut factor = one;
-    let sizes_squared = trial.sizes.map(|size| {
+    let sizes_squared = each(V::zero(), |index| {
         factor = factor * grade;
-        let size = V::constant(size) * factor;
+        let size = V::constant(trial.sizes[index]) * factor;
         bounded(size * size)
     });
     let setting = Setting { sizes_squared, count: block.count, slopes: block.slopes, coordinates: trial.coordinates };
@@ -410,7 +410,9 @@ fn evaluate<V: Vector<Scalar = f64>>(
     }
     let definite = found.definite.bits();
     let mut factor = one;
-    let shares = found.shares().map(|(squares, decided)| {
+    let found_shares = found.shares();
+    let shares: [_; 3] = each(([0.0; MAX_LANES], [0.0; MAX_LANES]), |index| {
+        let (squares, decided) = found_shares[index];
         factor = factor * grade;
         let inverse = one / (factor * factor);
         ((squares * inverse).to_lanes(), (decided * inverse).to_lanes())

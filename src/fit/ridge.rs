@@ -14,7 +14,7 @@ use super::adaptive_model::Coordinates;
 use super::cholesky::factor_and_solve;
 use super::heights::Heights;
 use super::moments::{ROWS, Rows, add, add_degrees, first_of, raised, rows, times};
-use crate::simd::{MAX_LANES, Vector};
+use crate::simd::{MAX_LANES, Vector, each};
 
 /// The coefficients of a polynomial of degree 4.
 pub(super) const TERMS: usize = 15;
@@ -188,7 +188,8 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
     /// What the data tell of each prior size: for degrees 2 to 4, `Σ c²/binom`, and how many coefficients the prior decides,
     /// in units of `τ²`.
     pub fn shares(&self) -> [(V, V); 3] {
-        [2, 3, 4].map(|degree| {
+        each((V::zero(), V::zero()), |index| {
+            let degree = index + 2;
             let (mut squares, mut variances) = (V::zero(), V::zero());
             let terms = first_of(degree)..first_of(degree + 1);
             for ((&c, &variance), binomial) in
@@ -235,6 +236,6 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
         let [p, q] = setting.slopes;
         squares = squares + (p * p + q * q) * self.prior[1];
         let rest = ((squares - self.explained) * V::constant(-0.5)).to_lanes();
-        std::array::from_fn(|lane| logarithms[lane] + rest[lane])
+        each(0.0, |lane| logarithms[lane] + rest[lane])
     }
 }

@@ -3,7 +3,7 @@
 use super::adaptive_model::MOST_AUTOMATIC_RINGS;
 use super::heights::{Frame, Heights, plain_residuals, prepare, scratch};
 use super::surroundings::Surroundings;
-use crate::simd::{MAX_LANES, Vector};
+use crate::simd::{MAX_LANES, Vector, each};
 use crate::sweep::{Counts, Patch, PatchQuantity};
 use crate::topology::Neighbourhood;
 use std::sync::{Mutex, PoisonError};
@@ -38,9 +38,12 @@ impl Collector<'_> {
         let (mut heights, scratch) = Heights::new(scratch, patch.len());
         let heights = &mut heights;
         let Frame { slopes, .. } = prepare(patch, unit, heights);
-        let plain = plain_residuals(patch, heights, scratch)
-            .map(|(squares, freedom)| (squares.to_lanes(), freedom.to_lanes()));
-        let (counts, slopes) = (patch.count.to_lanes(), slopes.map(V::to_lanes));
+        let residuals = plain_residuals(patch, heights, scratch);
+        let plain: [_; 3] = each(([0.0; MAX_LANES], [0.0; MAX_LANES]), |jet| {
+            let (squares, freedom) = residuals[jet];
+            (squares.to_lanes(), freedom.to_lanes())
+        });
+        let (counts, slopes) = (patch.count.to_lanes(), [slopes[0].to_lanes(), slopes[1].to_lanes()]);
         for (lane, &vertex) in vertices.iter().enumerate() {
             let rows = 0..counts[lane] as usize + 1;
             let column = |numbers: &[V]| rows.clone().map(|row| numbers[row].to_lanes()[lane]).collect();
@@ -55,7 +58,7 @@ impl Collector<'_> {
                 w: column(heights.w),
                 grades: rows.clone().map(|row| grade(row) / self.edge_length).collect(),
                 slopes: [slopes[0][lane], slopes[1][lane]],
-                plain: plain.map(|(squares, freedom)| (squares[lane], freedom[lane])),
+                plain: each((0.0, 0.0), |jet| (plain[jet].0[lane], plain[jet].1[lane])),
             };
             let all_finite =
                 [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());

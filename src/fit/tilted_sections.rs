@@ -86,7 +86,7 @@ impl<V: Vector> TiltedSums<V> {
             let curvature = twice * w;
             for i in 0..K {
                 let weighted = row[i] * weight;
-                for (sum, other) in self.matrix[i][..=i].iter_mut().zip(row) {
+                for (sum, other) in self.matrix[i][..i + 1].iter_mut().zip(row) {
                     *sum = *sum + weighted * other;
                 }
                 self.right[i] = self.right[i] + weighted * curvature;

@@ -16,7 +16,7 @@ mod x86;
 use std::sync::OnceLock;
 
 pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
-pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3, as_lanes};
+pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3, as_lanes, each};
 
 /// The instruction sets a call may use, narrowest first.
 ///

@@ -86,6 +86,17 @@ pub(crate) trait Mask: Copy {
     fn bits(self) -> u32;
 }
 
+/// `value(0)`, `value(1)` …, in place of `start`. As `std::array::from_fn`, which is not inlined everywhere, and then works without
+/// the CPU features of a kernel.
+#[inline(always)]
+pub(crate) fn each<T: Copy, const N: usize>(start: T, mut value: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [start; N];
+    for (index, place) in all.iter_mut().enumerate() {
+        *place = value(index);
+    }
+    all
+}
+
 /// A row of lanes of one scalar type.
 pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>

@@ -16,7 +16,7 @@ use super::check_counts;
 use super::patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity};
 use crate::error::Error;
 use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
-use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, dispatch};
+use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, dispatch, each};
 use crate::topology::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood, Topology};
 use crate::view::{Coordinate, PointArray, Points, StridedPoints, zeroed};
 use std::sync::{Mutex, PoisonError};
@@ -179,7 +179,7 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                 // Those that are left over move to the front, and stay sorted.
                 let mut left = 0;
                 for first in (0..count).step_by(W::Double::LANES) {
-                    let block: [u8; MAX_LANES] = std::array::from_fn(|lane| *sorted.get(first + lane).unwrap_or(&0));
+                    let block: [u8; MAX_LANES] = each(0, |lane| *sorted.get(first + lane).unwrap_or(&0));
                     let block = &block[..W::Double::LANES.min(count - first)];
                     let bits = sweep.block::<W, W::Double>(&group, block, attempt, &mut space);
                     for (lane, &member) in block.iter().enumerate() {
@@ -303,7 +303,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
             beyond.iter_mut().for_each(|row| row[lane] = vertices[lane]);
         }
         let full = if block.len() == V::LANES { full } else { 0 };
-        let [within @ .., count] = counts.map(|row| V::from_lanes(&row));
+        let [within @ .., count]: [V; 4] = each(V::zero(), |index| V::from_lanes(&counts[index]));
         let most_within = [0, 1, 2].map(|ring| counts[ring].iter().fold(0.0f64, |most, &x| most.max(x)) as usize);
         let all_normals = StridedPoints::from(self.quantity.normals());
         let normal = all_normals.lanes::<V>(&vertices);
@@ -322,7 +322,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
                 }
             }
             if let Some(all) = all_values {
-                let value = V::from_lanes(&indices.map(|index| all[index as usize]));
+                let value = V::from_lanes(&each(0.0, |lane| all[indices[lane] as usize]));
                 values[row] = V::select(there, value, V::zero());
             }
         }
