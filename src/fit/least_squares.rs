@@ -132,6 +132,13 @@ pub(crate) fn condition<V: Vector<Scalar = f64>, const K: usize>(
     (squared * V::constant(K as f64)).sqrt()
 }
 
+/// The first columns of `rows` numbers from row `k` on. Called, since the library's array functions are; it does no arithmetic.
+#[inline(never)]
+fn tails<V, const C: usize>(columns: &mut [V], rows: usize, k: usize) -> [&mut [V]; C] {
+    let mut parts = columns.chunks_exact_mut(rows);
+    std::array::from_fn(|_| parts.next().map_or(&mut [][..], |column| &mut column[k..]))
+}
+
 /// Applies the reflection `I − factor v vᵀ`, of which `pivot` is `v` without its leading zeros, to `C` columns; answers with
 /// the sum of squares of the first below row `k`.
 #[inline(always)]
@@ -143,8 +150,7 @@ fn reflect<V: Vector<Scalar = f64>, const C: usize>(
     k: usize,
 ) -> V {
     let length = pivot.len();
-    let mut parts = columns.chunks_exact_mut(rows);
-    let columns: [&mut [V]; C] = std::array::from_fn(|_| parts.next().map_or(&mut [][..], |column| &mut column[k..]));
+    let columns: [&mut [V]; C] = tails(columns, rows, k);
     for column in &columns {
         // So that no access below needs to be checked.
         assert!(column.len() == length && length > 0);

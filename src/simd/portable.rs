@@ -1,6 +1,6 @@
 //! The array back-end: lanes as a plain Rust array, for CPUs that have no back-end of their own.
 
-use super::vector::{MAX_LANES, Mask, Real, Vector, Vector3};
+use super::vector::{MAX_LANES, Mask, Real, Vector, Vector3, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `N` lanes of `S`.
@@ -14,11 +14,11 @@ pub(crate) struct Answers<const N: usize>([bool; N]);
 impl<const N: usize> Mask for Answers<N> {
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Answers(std::array::from_fn(|lane| self.0[lane] & other.0[lane]))
+        Answers(each(false, |lane| self.0[lane] & other.0[lane]))
     }
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Answers(std::array::from_fn(|lane| self.0[lane] | other.0[lane]))
+        Answers(each(false, |lane| self.0[lane] | other.0[lane]))
     }
     #[inline(always)]
     fn bits(self) -> u32 {
@@ -48,7 +48,7 @@ macro_rules! binary {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Lanes(std::array::from_fn(|lane| $trait::$method(self.0[lane], other.0[lane])))
+                Lanes(each(S::ZERO, |lane| $trait::$method(self.0[lane], other.0[lane])))
             }
         }
     };
@@ -62,14 +62,14 @@ impl<S: Real, const N: usize> Neg for Lanes<S, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Lanes(self.0.map(|x| -x))
+        Lanes(each(S::ZERO, |lane| -self.0[lane]))
     }
 }
 
 impl<S: Real, const N: usize> Lanes<S, N> {
     #[inline(always)]
     fn pick(self, other: Self, first: impl Fn(S, S) -> bool) -> Self {
-        Lanes(std::array::from_fn(|lane| {
+        Lanes(each(S::ZERO, |lane| {
             let (a, b) = (self.0[lane], other.0[lane]);
             if first(a, b) { a } else { b }
         }))
@@ -87,7 +87,7 @@ impl<S: Real, const N: usize> Vector for Lanes<S, N> {
     }
     #[inline(always)]
     fn from_lanes(lanes: &[S; MAX_LANES]) -> Self {
-        Lanes(std::array::from_fn(|lane| lanes[lane]))
+        Lanes(each(S::ZERO, |lane| lanes[lane]))
     }
     #[inline(always)]
     fn to_lanes(self) -> [S; MAX_LANES] {
@@ -97,11 +97,11 @@ impl<S: Real, const N: usize> Vector for Lanes<S, N> {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Lanes(self.0.map(S::root))
+        Lanes(each(S::ZERO, |lane| self.0[lane].root()))
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        Lanes(self.0.map(S::magnitude))
+        Lanes(each(S::ZERO, |lane| self.0[lane].magnitude()))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -113,25 +113,26 @@ impl<S: Real, const N: usize> Vector for Lanes<S, N> {
     }
     #[inline(always)]
     fn lt(self, other: Self) -> Answers<N> {
-        Answers(std::array::from_fn(|lane| self.0[lane] < other.0[lane]))
+        Answers(each(false, |lane| self.0[lane] < other.0[lane]))
     }
     #[inline(always)]
     fn select(mask: Answers<N>, yes: Self, no: Self) -> Self {
-        Lanes(std::array::from_fn(|lane| if mask.0[lane] { yes.0[lane] } else { no.0[lane] }))
+        Lanes(each(S::ZERO, |lane| if mask.0[lane] { yes.0[lane] } else { no.0[lane] }))
     }
     #[inline(always)]
     fn unit_scale(self) -> Self {
-        Lanes(self.0.map(S::inverse_power_of_two))
+        Lanes(each(S::ZERO, |lane| self.0[lane].inverse_power_of_two()))
     }
     #[inline(always)]
     unsafe fn gather<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
-        // SAFETY: the caller vouches for the indices, the base and the stride.
-        let points: [[S; 3]; N] =
-            std::array::from_fn(|lane| unsafe { base.add(indices[lane] as usize * stride).cast::<[S; 3]>().read() });
+        let points: [[S; 3]; N] = each([S::ZERO; 3], |lane| {
+            // SAFETY: the caller vouches for the indices, the base and the stride.
+            unsafe { base.add(indices[lane] as usize * stride).cast::<[S; 3]>().read() }
+        });
         Vector3 {
-            x: Lanes(points.map(|point| point[0])),
-            y: Lanes(points.map(|point| point[1])),
-            z: Lanes(points.map(|point| point[2])),
+            x: Lanes(each(S::ZERO, |lane| points[lane][0])),
+            y: Lanes(each(S::ZERO, |lane| points[lane][1])),
+            z: Lanes(each(S::ZERO, |lane| points[lane][2])),
         }
     }
 }
