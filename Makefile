@@ -74,7 +74,10 @@ lint:
 	  else echo "No clippy here: lints are not checked."; fi
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --lib --quiet
 
-test-rust: $(LIBRARY) $(MESHES)
+# The library's kernels keep one core busy; the tests are compiled on the other.
+test-rust: $(MESHES)
+	$(CARGO) test --locked --features cli --no-run & tests=$$!; \
+	  $(MAKE) --no-print-directory $(LIBRARY); built=$$?; wait $$tests && exit $$built
 	UMBILIC_MESHES=$(CURDIR)/$(MESHES) UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(CARGO) test --locked --features cli
 
 # The header in every language version that it promises, linked to the shared and to the static library.
