@@ -314,8 +314,8 @@ impl CurvatureOutputs<'_> {
         Taken(asked.iter().filter(|(asked, _)| *asked).fold(0, |all, (_, rows)| all | rows))
     }
 
-    /// Whether an output is in double precision.
-    pub(crate) fn any_double(&self) -> bool {
+    /// The outputs of one number a vertex that are asked for.
+    fn scalars(&self) -> impl Iterator<Item = &ScalarOutput<'_>> {
         let scalars = [
             &self.k1,
             &self.k2,
@@ -330,8 +330,13 @@ impl CurvatureOutputs<'_> {
             &self.condition,
             &self.degrees_of_freedom,
         ];
+        scalars.into_iter().flatten()
+    }
+
+    /// Whether an output is in double precision.
+    pub(crate) fn any_double(&self) -> bool {
         let vectors = [&self.direction1, &self.direction2, &self.mean_normal, &self.normal];
-        scalars.into_iter().flatten().any(Output::is_double) || vectors.into_iter().flatten().any(Output::is_double)
+        self.scalars().any(Output::is_double) || vectors.into_iter().flatten().any(Output::is_double)
     }
 }
 
@@ -455,21 +460,7 @@ impl CurvatureOutputs<'_> {
 
     /// Writes zeros (and the normal, if there is one) at a vertex without result.
     pub(crate) fn write_none(&self, vertex: usize, normal: [f64; 3], status: u8) {
-        let scalars = [
-            &self.k1,
-            &self.k2,
-            &self.mean,
-            &self.gaussian,
-            &self.area,
-            &self.integrated_mean,
-            &self.integrated_gaussian,
-            &self.shape_index,
-            &self.curvedness,
-            &self.residual,
-            &self.condition,
-            &self.degrees_of_freedom,
-        ];
-        for output in scalars.into_iter().flatten() {
+        for output in self.scalars() {
             output.write(vertex, [0.0]);
         }
         for output in [&self.direction1, &self.direction2, &self.mean_normal].into_iter().flatten() {

@@ -59,6 +59,25 @@ impl NormalOutputs<'_> {
     }
 }
 
+/// A `match` on a weight: `$with!(Estimator)` for a sum over one ring, and the arms that follow for the others.
+macro_rules! by_weight {
+    ($weight:expr, $with:ident, { $($others:tt)* }) => {
+        match $weight {
+            Weight::Conformal => $with!(Conformal),
+            Weight::Uniform => $with!(Uniform),
+            Weight::Angle => $with!(Angle),
+            Weight::Area => $with!(Area),
+            Weight::Max => $with!(Max),
+            Weight::CentroidArea => $with!(CentroidArea),
+            Weight::Centroid => $with!(Centroid),
+            Weight::InverseRootEdges => $with!(InverseRootEdges),
+            Weight::Sine => $with!(Sine),
+            Weight::AngleEdges => $with!(AngleEdges),
+            $($others)*
+        }
+    };
+}
+
 /// Computes the normals of all vertices, or of those in [`Run::vertices`].
 ///
 /// Single precision is used where positions and outputs are all `f32` and faces are triangles, except by
@@ -85,23 +104,13 @@ pub fn vertex_normals(
             sweep(topology, points, &mut run, double, &quantity)
         }};
     }
-    match weight {
-        Weight::Conformal => with!(Conformal),
-        Weight::Uniform => with!(Uniform),
-        Weight::Angle => with!(Angle),
-        Weight::Area => with!(Area),
-        Weight::Max => with!(Max),
-        Weight::CentroidArea => with!(CentroidArea),
-        Weight::Centroid => with!(Centroid),
-        Weight::InverseRootEdges => with!(InverseRootEdges),
-        Weight::Sine => with!(Sine),
-        Weight::AngleEdges => with!(AngleEdges),
+    by_weight!(weight, with, {
         Weight::Jet(options) => jet_normals(topology, points, options, run, outputs),
         Weight::AdaptiveJet(options) => adaptive_normals(topology, points, options, run, outputs),
         Weight::TiltedSections => {
             sweep(topology, points, &mut run, true, &TiltedNormals { outputs, flags: topology.flags() })
         }
-    }
+    })
 }
 
 /// Whether a weight is a sum over one ring.
@@ -129,19 +138,9 @@ pub(crate) fn with_vertex_normals<Q: Quantity>(
             sweep_with_normals(topology, points, run, double, &normals, quantity)
         }};
     }
-    match weight {
-        Weight::Conformal => with!(Conformal),
-        Weight::Uniform => with!(Uniform),
-        Weight::Angle => with!(Angle),
-        Weight::Area => with!(Area),
-        Weight::Max => with!(Max),
-        Weight::CentroidArea => with!(CentroidArea),
-        Weight::Centroid => with!(Centroid),
-        Weight::InverseRootEdges => with!(InverseRootEdges),
-        Weight::Sine => with!(Sine),
-        Weight::AngleEdges => with!(AngleEdges),
+    by_weight!(weight, with, {
         Weight::Jet(_) | Weight::AdaptiveJet(_) | Weight::TiltedSections => unreachable!("no sum over one ring"),
-    }
+    })
 }
 
 /// The area-weighted normals of the vertices that `run` asks for, by vertex, and zeros elsewhere: what estimators on

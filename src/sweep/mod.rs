@@ -14,28 +14,33 @@
 //! Which way a vertex goes depends on its own ring and nothing else.
 
 mod calls;
+mod check;
 mod frames;
+mod load;
 mod patch;
 mod patch_sweep;
 mod ring;
 mod rows;
 
+pub(crate) use check::check_counts;
 pub(crate) use frames::{CANCELLED, area_vector};
+pub(crate) use load::lengthened;
 pub(crate) use patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity};
 pub(crate) use patch_sweep::sweep_patches;
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
-use crate::error::{Error, filled};
+use crate::error::Error;
 use crate::parallel::{Claims, Run, for_each_chunk};
-use crate::simd::{Real, Task, Vector, Vector3, Width};
-use crate::topology::{NO_FACE, Polygons, Topology};
-use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, Rings, StridedPoints, WINDOW};
-use calls::{AloneCalls, BlockCalls, Both, Calls};
+use crate::simd::{Task, Vector, Width};
+use crate::topology::Topology;
+use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, StridedPoints, WINDOW};
+use calls::{BlockCalls, Both, Calls};
+use check::{check_points, corners_met};
 use frames::{Asked, Frames};
-use glam::DVec3;
-use ring::{Polygon, PolygonFaces, Triangles};
-use rows::{LANE_EDGES, LaneRows, LargeRows, Rows};
-use std::sync::{Mutex, PoisonError};
+use load::{Loaded, NeighbourNormals};
+use ring::PolygonFaces;
+use rows::{LaneRows, LargeRows};
+use std::sync::Mutex;
 
 /// An estimator over one-rings, and where its results go.
 pub(crate) trait Quantity: Sync {
@@ -142,89 +147,6 @@ fn sweep_calls(
     }
 }
 
-/// Refuses positions that are too few or too many, and vertices that are none.
-pub(crate) fn check_counts(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
-    let expected = topology.vertex_count() as u64;
-    if points.len() as u64 != expected {
-        return Err(Error::Size { what: "points.count", found: points.len() as u64, expected });
-    }
-    for (position, &vertex) in vertices.unwrap_or(&[]).iter().enumerate() {
-        if vertex as u64 >= expected {
-            let (position, index) = (position as u64, vertex as i128);
-            return Err(Error::IndexOutOfRange { what: "run.vertices", position, index, vertex_count: expected });
-        }
-    }
-    Ok(())
-}
-
-/// Refuses positions that are too few, too many or not finite, and vertices that are none. With a list of vertices, only
-/// the positions that it needs may be to blame.
-fn check_points(topology: &Topology, points: &Points<'_>, vertices: Option<&[u32]>) -> Result<(), Error> {
-    check_counts(topology, points, vertices)?;
-    let Some(vertices) = vertices else {
-        return points.check_finite();
-    };
-    // For a long list it is cheaper to look at all positions; only if that finds one is the list gone through, each
-    // vertex and each face once.
-    let long = corners_met(topology, vertices).is_none();
-    if long && points.check_finite().is_ok() {
-        return Ok(());
-    }
-    let faces = topology.polygons().map_or(0, Polygons::face_count);
-    let mut seen =
-        [filled(if long { points.len() } else { 0 }, false)?, filled(if long { faces } else { 0 }, false)?];
-    let mut first_time = |kind: usize, index: u32| match seen[kind].get_mut(index as usize) {
-        Some(seen) => !std::mem::replace(seen, true),
-        None => true,
-    };
-    let check = |vertex: &u32| {
-        let finite = points.get(*vertex as usize).is_finite();
-        if finite { Ok(()) } else { Err(Error::NonFinitePosition { vertex: *vertex as u64 }) }
-    };
-    for vertex in vertices {
-        if !first_time(0, *vertex) {
-            continue;
-        }
-        check(vertex)?;
-        let ring = topology.rings().ring_range(*vertex as usize);
-        match topology.polygons() {
-            None => topology.ring(*vertex as usize).iter().try_for_each(check)?,
-            Some(polygons) => {
-                for &face in polygons.corner_faces(ring) {
-                    if face != NO_FACE && first_time(1, face) {
-                        polygons.face(face as usize).iter().try_for_each(check)?;
-                    }
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// How many corners the faces at `vertices` have, a face counted as often as it is met; `None` if that is more work than
-/// the whole mesh.
-fn corners_met(topology: &Topology, vertices: &[u32]) -> Option<usize> {
-    let whole = topology.rings().entry_count()
-        + topology.vertex_count()
-        + topology.polygons().map_or(0, |polygons| polygons.face_count());
-    let mut budget = whole;
-    for &vertex in vertices {
-        let ring = topology.rings().ring_range(vertex as usize);
-        let met = match topology.polygons() {
-            None => ring.len(),
-            Some(polygons) => {
-                let corners = |&face: &u32| match face {
-                    NO_FACE => 0,
-                    face => polygons.face(face as usize).len(),
-                };
-                polygons.corner_faces(ring).iter().map(corners).sum()
-            }
-        };
-        budget = budget.checked_sub(met + 1)?;
-    }
-    Some(whole - budget)
-}
-
 fn sweep_points<S: Coordinate>(
     topology: &Topology,
     points: &StridedPoints<'_, S>,
@@ -258,21 +180,6 @@ fn sweep_points<S: Coordinate>(
     let large = Mutex::new(LargeRows::new(large)?);
     let sweep = Sweep { topology, points, frames, normals, vertices, double, large: &large };
     for_each_chunk(run, chunks, |claims| calls.work(level, Part { sweep: any(&sweep), claims }))
-}
-
-/// [`NormalRows`] to load from.
-enum NeighbourNormals<'a> {
-    Single(StridedPoints<'a, f32>),
-    Double(StridedPoints<'a, f64>),
-}
-
-impl<'a> From<NormalRows<'a>> for NeighbourNormals<'a> {
-    fn from(rows: NormalRows<'a>) -> Self {
-        match rows {
-            NormalRows::Single(rows) => NeighbourNormals::Single(rows.into()),
-            NormalRows::Double(rows) => NeighbourNormals::Double(rows.into()),
-        }
-    }
 }
 
 struct Sweep<'a, S> {
@@ -388,219 +295,5 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
                 }
             }
         }
-    }
-}
-
-/// The rings of a block.
-struct Loaded<'r, V> {
-    ring: Ring<'r, V, Triangles>,
-    /// How many of the rings' units make one of the mesh.
-    scale: V,
-    /// One for each corner, to be filled where they are not triangles.
-    faces: &'r mut [Polygon<V>],
-    /// For the estimator.
-    scratch: Scratch<'r, V>,
-}
-
-impl<S: Coordinate> Sweep<'_, S> {
-    /// Fetches what the block that comes next needs, where memory would otherwise be waited for.
-    #[inline(always)]
-    fn prefetch(&self, batch: &Batch, next: Option<&&[u32]>, corners: usize) {
-        let Some(block) = next.filter(|_| batch.is_scattered()) else { return };
-        let rings = self.topology.rings();
-        rings.prefetch(self.points, block, corners);
-        match &self.normals {
-            Some(NeighbourNormals::Single(normals)) => rings.prefetch(normals, block, corners),
-            Some(NeighbourNormals::Double(normals)) => rings.prefetch(normals, block, corners),
-            None => {}
-        }
-    }
-
-    /// Loads the rings of a block, in their own units.
-    #[inline(always)]
-    fn load<'r, V: Vector>(
-        &self,
-        block: &[u32],
-        corners: usize,
-        closed: bool,
-        rows: &'r mut LaneRows<V>,
-    ) -> Loaded<'r, V> {
-        let Rows { edges, squared, normals, faces, scratch } = rows.rows();
-        let edges = &mut edges[..corners + 1];
-        let squared = &mut squared[..corners + 1];
-        let normals: &[_] = match &self.normals {
-            Some(values) => {
-                let rings = self.topology.rings();
-                match values {
-                    NeighbourNormals::Single(values) => {
-                        rings.load_values(values, block, corners, closed, normals);
-                        normals[..corners + 1].iter_mut().for_each(|normal| *normal = lengthened(*normal));
-                    }
-                    NeighbourNormals::Double(values) => rings.load_values(values, block, corners, closed, normals),
-                }
-                &normals[..corners + 1]
-            }
-            None => &[],
-        };
-        self.topology.rings().load_edges(self.points, block, corners, closed, edges);
-        let mut extent = V::zero();
-        for edge in edges.iter() {
-            extent = edge.largest_component().max(extent);
-        }
-        let scale = extent.unit_scale();
-        scale_edges(edges, squared, scale);
-        let ring = Ring { edges, squared, closed, faces: Triangles, normals };
-        Loaded { ring, scale, faces: &mut faces[..corners], scratch }
-    }
-
-    /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.
-    #[inline(always)]
-    fn load_faces<V: Vector>(
-        &self,
-        frames: &Frames<'_, S>,
-        centroids: bool,
-        block: &[u32],
-        scale: V,
-        faces: &mut [Polygon<V>],
-    ) {
-        let scales = scale.to_lanes();
-        for (corner, face) in faces.iter_mut().enumerate() {
-            let lane = |lane: usize| {
-                let vertex = *block.get(lane).unwrap_or(&block[0]) as usize;
-                let index = frames.face_of(self.topology.rings().ring_range(vertex).start + corner);
-                self.load_face(frames, centroids, index, vertex, 1.0, scales[lane].into())
-            };
-            *face = Polygon::from_lanes(lane);
-        }
-    }
-
-    /// A face as a vertex sees it, in units of `scale` to a length of the mesh times `factor`.
-    #[inline(always)]
-    fn load_face(
-        &self,
-        frames: &Frames<'_, S>,
-        centroids: bool,
-        face: usize,
-        vertex: usize,
-        factor: f64,
-        scale: f64,
-    ) -> Polygon<f64> {
-        let frame = frames.get(face);
-        // A face may be larger than the ring by any amount, but its square must stay in range.
-        const LARGEST: f64 = (1u128 << 100) as f64;
-        let size = (frame.size * factor * scale).min(LARGEST);
-        let mut centroid = DVec3::ZERO;
-        if centroids {
-            let point = |vertex: usize| self.points.get(vertex) * factor;
-            let offset = frame.centroid * factor + (point(frames.first_corner(face) as usize) - point(vertex));
-            centroid = offset * scale;
-        }
-        Polygon {
-            normal: frame.normal.into(),
-            area: size * size,
-            centroid: centroid.into(),
-            share: frame.share,
-            bend: frame.bend,
-            mean_normal: frame.mean_normal.into(),
-            may_turn: if frame.may_turn { 1.0 } else { 0.0 },
-        }
-    }
-
-    /// The vertex-by-vertex path.
-    #[inline(never)]
-    fn alone(&self, calls: &dyn AloneCalls, vertex: usize, rows: &mut LaneRows<f64>) {
-        if self.topology.edges_alone(vertex) <= LANE_EDGES {
-            self.alone_in(calls, vertex, rows.rows());
-        } else {
-            self.alone_in(calls, vertex, self.large.lock().unwrap_or_else(PoisonError::into_inner).rows());
-        }
-    }
-
-    fn alone_in(&self, calls: &dyn AloneCalls, vertex: usize, rows: Rows<'_, f64>) {
-        let Rows { edges, squared, normals, faces, mut scratch } = rows;
-        // Positions so far apart that their difference overflows are brought closer first; the factor is exact
-        // for them.
-        let mut factor = 1.0;
-        let (mut count, mut extent) = self.load_alone(vertex, factor, edges);
-        if extent == f64::INFINITY {
-            factor = 0.25;
-            (count, extent) = self.load_alone(vertex, factor, edges);
-        }
-        let (edges, squared) = (&mut edges[..count], &mut squared[..count]);
-        let scale = extent.unit_scale();
-        scale_edges(edges, squared, scale);
-        let normals: &[_] = match &self.normals {
-            Some(values) => {
-                self.load_normals_alone(vertex, values, normals);
-                &normals[..count]
-            }
-            None => &[],
-        };
-        if let Some(frames) = &self.frames {
-            let mut corners = 0;
-            let ring_start = self.topology.rings().ring_range(vertex).start;
-            for fan in self.topology.fans(vertex) {
-                for corner in 0..fan.corner_count {
-                    let face = frames.face_of(ring_start + fan.start + corner);
-                    faces[corners] = self.load_face(frames, calls.centroids(), face, vertex, factor, scale);
-                    corners += 1;
-                }
-            }
-            let fans =
-                VertexFans::new(self.topology, vertex, edges, squared, PolygonFaces(&faces[..corners]), normals);
-            calls.alone_polygons(vertex, &fans, scale * factor, &mut scratch);
-        } else {
-            let fans = VertexFans::new(self.topology, vertex, edges, squared, Triangles, normals);
-            calls.alone_triangles(vertex, &fans, scale * factor, &mut scratch);
-        }
-    }
-
-    /// Fills `normals` with those of the neighbours, in the order of [`Sweep::load_alone`].
-    fn load_normals_alone(&self, vertex: usize, values: &NeighbourNormals<'_>, normals: &mut [Vector3<f64>]) {
-        let mut count = 0;
-        for fan in self.topology.fans(vertex) {
-            let around = fan.neighbours.iter().chain(fan.neighbours.first().filter(|_| fan.closed));
-            for &neighbour in around {
-                normals[count] = match values {
-                    NeighbourNormals::Single(values) => lengthened(values.get(neighbour as usize).into()),
-                    NeighbourNormals::Double(values) => values.get(neighbour as usize).into(),
-                };
-                count += 1;
-            }
-        }
-    }
-
-    /// Fills `edges` fan after fan, in a closed one the first again at the end; answers with their number and extent.
-    fn load_alone(&self, vertex: usize, factor: f64, edges: &mut [Vector3<f64>]) -> (usize, f64) {
-        let mut count = 0;
-        for fan in self.topology.fans(vertex) {
-            let first = count;
-            for edge in Rings::edges_of(self.points, vertex, fan.neighbours, factor) {
-                edges[count] = edge;
-                count += 1;
-            }
-            if fan.closed {
-                edges[count] = edges[first];
-                count += 1;
-            }
-        }
-        (count, edges[..count].iter().fold(0.0, |extent, edge| edge.largest_component().max(extent)))
-    }
-}
-
-/// A normal from single precision at length 1, to the precision of the lanes; single precision leaves it as it is.
-#[inline(always)]
-pub(crate) fn lengthened<V: Vector>(normal: Vector3<V>) -> Vector3<V> {
-    if V::Scalar::SINGLE {
-        return normal;
-    }
-    normal * normal.squared().sqrt().reciprocal_or_zero()
-}
-
-#[inline(always)]
-fn scale_edges<V: Vector>(edges: &mut [Vector3<V>], squared: &mut [V], scale: V) {
-    for (edge, squared) in edges.iter_mut().zip(squared) {
-        *edge = *edge * scale;
-        *squared = edge.squared();
     }
 }
