@@ -198,12 +198,7 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
         let trusted = trusted.bits();
         *scratch.normal = normal;
         if let Some(output) = &self.outputs.normal {
-            let lanes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
-            for (lane, &vertex) in vertices.iter().enumerate() {
-                if trusted & 1 << lane != 0 {
-                    output.write_lane(vertex as usize, lanes.map(|axis| axis[lane]));
-                }
-            }
+            output.write_lanes(vertices, trusted, &[normal.x, normal.y, normal.z]);
         }
         if let Some(output) = &self.outputs.sum {
             let axes = [sum.vector.x, sum.vector.y, sum.vector.z].map(V::to_lanes);

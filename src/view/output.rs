@@ -2,7 +2,7 @@
 
 use super::checked_stride;
 use crate::error::Error;
-use crate::simd::{MAX_LANES, Real};
+use crate::simd::{MAX_LANES, Real, Vector};
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 
@@ -85,13 +85,30 @@ impl<'a, const N: usize> Output<'a, N> {
         }
     }
 
-    /// Writes an element in whatever precision a kernel works in.
+    /// Writes the elements `vertices`, in the lanes whose bit is set in `lanes`, in whatever precision a kernel works in.
     #[inline(always)]
-    pub(crate) fn write_lane<S: Real>(&self, index: usize, value: [S; N]) {
-        if S::SINGLE && !self.double {
-            self.write_single(index, value.map(|x| x.into() as f32));
-        } else {
-            self.write(index, value.map(Into::into));
+    pub(crate) fn write_lanes<V: Vector>(&self, vertices: &[u32], lanes: u32, values: &[V; N]) {
+        let mut rows = [[V::Scalar::ZERO; MAX_LANES]; N];
+        for axis in 0..N {
+            rows[axis] = values[axis].to_lanes();
+        }
+        for (lane, &vertex) in vertices.iter().enumerate().take(MAX_LANES) {
+            if lanes & 1 << lane == 0 {
+                continue;
+            }
+            if V::Scalar::SINGLE && !self.double {
+                let mut element = [0.0; N];
+                for axis in 0..N {
+                    element[axis] = rows[axis][lane].into() as f32;
+                }
+                self.write_single(vertex as usize, element);
+            } else {
+                let mut element = [0.0; N];
+                for axis in 0..N {
+                    element[axis] = rows[axis][lane].into();
+                }
+                self.write(vertex as usize, element);
+            }
         }
     }
 

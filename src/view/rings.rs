@@ -305,13 +305,21 @@ impl Rings {
         let class = RingClass::Lanes { corners, closed }.code();
         let edges = &mut edges[..corners + 1];
         let mut centres = [vertices[0]; MAX_LANES];
-        centres[..vertices.len()].copy_from_slice(vertices);
+        // Lane by lane: a copy of unknown length is a call, which forgets what stands in vector registers.
+        for lane in 0..V::LANES {
+            if let Some(&vertex) = vertices.get(lane) {
+                centres[lane] = vertex;
+            }
+        }
         let mut starts = [0u32; MAX_LANES];
+        let mut differing = 0;
         for lane in 0..V::LANES {
             let vertex = centres[lane] as usize;
-            assert_eq!(self.classes[vertex], class);
-            starts[lane] = self.offsets[vertex];
+            differing |= self.classes[vertex] ^ class;
+            // SAFETY: `from_table` has seen one offset more than there are classes, and this vertex has a class.
+            starts[lane] = unsafe { *self.offsets.get_unchecked(vertex) };
         }
+        assert_eq!(differing, 0, "a vertex of another class");
         let neighbours = &mut edges[..corners + !closed as usize];
         // SAFETY: each of these vertices was seen by `RingPart::seal` to be of this class: the vertex itself and its neighbours, as
         // many as there are edges, are inside the tables and are vertices other than the last.
