@@ -6,8 +6,8 @@
 
 use crate::error::Error;
 use crate::simd::Level;
+use crate::view::{core_count, with_helpers};
 use std::cell::Cell;
-use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 
@@ -67,7 +67,7 @@ impl std::fmt::Debug for Run<'_> {
 /// Fewer chunks than this for each thread are not worth starting it.
 const CHUNKS_A_THREAD: usize = 16;
 
-/// No call starts more threads than this, whatever it is asked for.
+/// No call uses more threads than this, whatever it is asked for.
 const MOST_THREADS: usize = 256;
 
 thread_local! {
@@ -123,8 +123,7 @@ pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
     if most <= 1 {
         return 1;
     }
-    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get());
-    most.min(if wanted == 0 { cores() } else { MOST_THREADS })
+    most.min(if wanted == 0 { core_count() } else { MOST_THREADS })
 }
 
 /// Runs `other` on up to `threads - 1` threads, and `own` on this one. A panic of any of them goes on here.
@@ -137,17 +136,8 @@ fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
         set_quiet(quiet);
         other();
     };
-    std::thread::scope(|scope| {
-        // A system that has no more threads to give leaves the work to those there are.
-        let start = |_| std::thread::Builder::new().name("umbilic".to_owned()).spawn_scoped(scope, other).ok();
-        let started: Vec<_> = (1..threads).map_while(start).collect();
-        own();
-        for thread in started {
-            if let Err(panic) = thread.join() {
-                resume_unwind(panic);
-            }
-        }
-    });
+    // A system that has no more threads to give leaves the work to those there are.
+    with_helpers(threads - 1, &other, own);
 }
 
 /// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.

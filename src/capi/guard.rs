@@ -3,40 +3,73 @@
 use super::status::{Failure, UMB_OK, umb_error, umb_status};
 use crate::error::Error;
 use crate::parallel::{is_quiet, set_quiet};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
+use crate::simd::Environment;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::sync::{Once, OnceLock};
 
-/// Runs an entry point: no panic leaves it, nothing is printed, and a failure is reported to `error`.
+thread_local! {
+    /// The floating-point environment that the host left on this thread when it called.
+    static HOSTS: Cell<Environment> = const { Cell::new(Environment::STANDARD) };
+}
+
+/// Runs an entry point: no panic leaves it, nothing is printed, and a failure is reported to `error`. The body finds the standard
+/// floating-point environment; the host finds its own again.
 ///
 /// # Safety
 /// `error` is null, or points to a `umb_error` of the size it claims.
 pub(super) unsafe fn guard(error: *mut umb_error, body: impl FnOnce() -> Result<(), Error>) -> umb_status {
     silence_guarded_panics();
-    let outer = set_quiet(true);
+    let outer = (HOSTS.replace(Environment::current()), set_quiet(true));
+    // SAFETY: the standard environment.
+    unsafe { Environment::STANDARD.establish() };
     let outcome = catch_unwind(AssertUnwindSafe(body));
-    set_quiet(outer);
     let failure = match outcome {
-        Ok(Ok(())) => return UMB_OK,
-        Ok(Err(error)) => Failure::Error(error),
-        Err(payload) => Failure::Panic(payload),
+        Ok(Ok(())) => None,
+        Ok(Err(error)) => Some(Failure::Error(error)),
+        Err(payload) => Some(Failure::Panic(payload)),
     };
-    // SAFETY: handed on.
-    unsafe { failure.report(error) };
-    failure.status()
+    let status = failure.as_ref().map_or(UMB_OK, Failure::status);
+    if let Some(failure) = failure {
+        // SAFETY: handed on.
+        unsafe { failure.report(error) };
+    }
+    set_quiet(outer.1);
+    let host = HOSTS.replace(outer.0);
+    // SAFETY: what the host had, which runs next.
+    unsafe { host.establish() };
+    status
+}
+
+/// Runs a function of the host's from within a [`guard`], as if the host had called it: with its own floating-point environment, of which it
+/// may leave another behind, and with its own panics printed.
+pub(super) fn outside<T>(function: impl FnOnce() -> T) -> T {
+    let quiet = set_quiet(false);
+    // SAFETY: what the host had; its function runs next.
+    unsafe { HOSTS.get().establish() };
+    let answer = function();
+    HOSTS.set(Environment::current());
+    // SAFETY: the standard environment.
+    unsafe { Environment::STANDARD.establish() };
+    set_quiet(quiet);
+    answer
 }
 
 /// A library must not write to its host's standard error: panics that a guard will catch, on the caller's thread or on one
 /// that the call started, skip the hook that prints them. All others go where they went before.
 fn silence_guarded_panics() {
+    type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
     static INSTALLED: Once = Once::new();
+    static PREVIOUS: OnceLock<Hook> = OnceLock::new();
     // A thread that is unwinding may not set a hook; a later call will.
     if INSTALLED.is_completed() || std::thread::panicking() {
         return;
     }
     INSTALLED.call_once(|| {
-        let previous = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |info| {
-            if !is_quiet() {
+        // A hook that holds nothing takes no memory.
+        let _ = PREVIOUS.set(std::panic::take_hook());
+        std::panic::set_hook(Box::new(|info| {
+            if let (false, Some(previous)) = (is_quiet(), PREVIOUS.get()) {
                 previous(info);
             }
         }));

@@ -5,6 +5,7 @@ use super::status::{umb_error, umb_status};
 use super::types::{level_of, umb_faces, umb_simd};
 use crate::error::Error;
 use crate::topology::{Topology, status};
+use crate::view::boxed;
 use libc::size_t;
 use std::mem::offset_of;
 
@@ -157,7 +158,7 @@ pub unsafe extern "C" fn umb_topology_create(
             }
             let (threads, level) = (options.threads as usize, level_of(options.simd, "topology_options.simd")?);
             let built = Topology::with_threads(&faces, vertex_count, threads, level)?;
-            topology.write_unaligned(Box::into_raw(Box::new(umb_topology(built))));
+            topology.write_unaligned(Box::into_raw(boxed(umb_topology(built))?));
             Ok(())
         })
     }

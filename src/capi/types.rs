@@ -1,8 +1,8 @@
 //! Views and options as C sees them.
 
-use super::guard::{Versioned, check_reserved};
+use super::guard::{Versioned, check_reserved, outside};
 use crate::error::Error;
-use crate::parallel::{Run, set_quiet};
+use crate::parallel::Run;
 use crate::simd::Level;
 use crate::view::{Faces, Indices, Output, Points, StatusOutput};
 use libc::{c_int, c_void, size_t};
@@ -275,12 +275,8 @@ impl umb_run {
     pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
         let (progress, user) = (self.progress?, self.user);
         Some(move |fraction| {
-            // What goes wrong in there is the host's to print.
-            let quiet = set_quiet(false);
             // SAFETY: the caller gave both for this purpose.
-            let answer = unsafe { progress(user, fraction) };
-            set_quiet(quiet);
-            answer == 0
+            outside(|| unsafe { progress(user, fraction) }) == 0
         })
     }
 

@@ -19,7 +19,7 @@ use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3, each};
 use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::{Neighbourhood, Topology, closure, status};
-use crate::view::{Output, Points, zeroed};
+use crate::view::{Output, Points, boxed, zeroed};
 use std::sync::{Mutex, PoisonError};
 
 /// Integrals over a piece of surface.
@@ -282,7 +282,7 @@ struct Ball {
 impl Gather {
     fn new(topology: &Topology, region: Region) -> Result<Self, Error> {
         Ok(match region {
-            Region::Rings(rings) => Gather::Rings { rings, neighbourhood: Box::new(Neighbourhood::new(topology)?) },
+            Region::Rings(rings) => Gather::Rings { rings, neighbourhood: boxed(Neighbourhood::new(topology)?)? },
             Region::Ball(radius) => Gather::Ball(Ball::new(topology, radius)?),
         })
     }

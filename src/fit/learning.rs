@@ -20,9 +20,9 @@
 use super::adaptive_model::{AdaptiveModel, Coordinates, LEAST_NOISE};
 use super::heights::{Heights, scratch, weigh};
 use super::ridge::{Setting, solve};
-use super::sample::{Collector, Sample};
+use super::sample::{COLUMNS, Collector, Sample, Samples};
 use super::surroundings::Surroundings;
-use crate::error::Error;
+use crate::error::{Error, filled, reserved};
 use crate::parallel::Run;
 use crate::simd::{MAX_LANES, Mask, Task, Vector, Width, dispatch, each};
 use crate::sweep::sweep_patches;
@@ -30,8 +30,11 @@ use crate::topology::{Neighbourhood, Topology};
 use crate::view::{Points, zeroed};
 use std::sync::{Mutex, PoisonError};
 
-/// The most vertices that are learned from; four times as many are looked at.
+/// The most vertices that are learned from.
 const MOST_SAMPLED: usize = 256;
+
+/// The most that are looked at for that.
+const MOST_LOOKED_AT: usize = 4 * MOST_SAMPLED;
 
 /// With fewer than this, no choices are made.
 const FEW_SAMPLED: usize = 32;
@@ -82,26 +85,27 @@ pub(crate) fn learn(
     let unknown = AdaptiveModel { edge_length, noise: noise_of(LEAST_NOISE), ..AdaptiveModel::UNKNOWN };
 
     let mut neighbourhood = Neighbourhood::new(topology)?;
-    let candidates: Vec<u32> = spaced(topology.vertex_count(), 4 * MOST_SAMPLED)
-        .filter(|&vertex| known(vertex))
-        .map(|vertex| vertex as u32)
-        .collect();
-    let clean: Vec<u32> =
-        candidates.iter().copied().filter(|&vertex| around.is_clean(vertex, topology, &mut neighbourhood)).collect();
+    let mut candidates: Vec<u32> = reserved(MOST_LOOKED_AT)?;
+    let looked_at = spaced(topology.vertex_count(), MOST_LOOKED_AT).filter(|&vertex| known(vertex));
+    candidates.extend(looked_at.map(|vertex| vertex as u32));
+    let mut clean: Vec<u32> = reserved(candidates.len())?;
+    clean.extend(candidates.iter().filter(|&&vertex| around.is_clean(vertex, topology, &mut neighbourhood)));
     let candidates = if clean.len() < FEW_SAMPLED { candidates } else { clean };
-    let list: Vec<u32> = spaced(candidates.len(), MOST_SAMPLED).map(|index| candidates[index]).collect();
+    let mut list: Vec<u32> = reserved(MOST_SAMPLED)?;
+    list.extend(spaced(candidates.len(), MOST_SAMPLED).map(|index| candidates[index]));
 
-    let collector = Collector { around, edge_length, samples: Mutex::new(Vec::new()) };
+    let samples = Mutex::new(Samples::with_room(list.len(), topology.vertex_count())?);
+    let collector = Collector { around, edge_length, samples };
     run.part_for(Some(&list), 0.0, 0.5, |mut run| sweep_patches(topology, points, &mut run, &collector))?;
     let mut samples = collector.samples.into_inner().unwrap_or_else(PoisonError::into_inner);
     // Neighbourhoods of one size share a row of lanes.
-    samples.sort_unstable_by_key(|sample| (sample.u.len(), sample.vertex));
-    if samples.is_empty() {
+    samples.vertices.sort_unstable_by_key(|sample| (sample.count, sample.vertex));
+    if samples.vertices.is_empty() {
         return Ok(unknown);
     }
-    let mut best = None;
+    let mut best = Err(Error::OutOfMemory);
     dispatch(run.level, Choose { samples: &samples, best: &mut best });
-    let Some(best) = best else { return Ok(unknown) };
+    let best = best?;
     let Trial { noise_squared, sizes, coordinates, noise_exponent, size_exponent } = best.trial;
     let model = AdaptiveModel {
         edge_length,
@@ -111,7 +115,7 @@ pub(crate) fn learn(
         size_exponent,
         coordinates,
         evidence: best.evidence,
-        sample: samples.len() as u32,
+        sample: samples.vertices.len() as u32,
     };
     // What came out must be what can be handed in.
     Ok(if model.check().is_ok() { model } else { unknown })
@@ -127,6 +131,16 @@ fn spaced(count: usize, most: usize) -> impl Iterator<Item = usize> {
 fn quantile(numbers: &mut [f64], rank: f64) -> Option<f64> {
     let index = (numbers.len().checked_sub(1)? as f64 * rank) as usize;
     Some(*numbers.select_nth_unstable_by(index, f64::total_cmp).1)
+}
+
+/// The numbers, at the start of `place`.
+fn listed(place: &mut [f64; MOST_SAMPLED], numbers: impl Iterator<Item = f64>) -> &mut [f64] {
+    let mut count = 0;
+    for number in numbers {
+        place[count] = number;
+        count += 1;
+    }
+    &mut place[..count]
 }
 
 /// What the mean of `freedom` squares of standard normal numbers is at the quantiles [`QUIET`] and [`LOUD`], by Wilson and Hilferty.
@@ -159,15 +173,14 @@ struct Learned {
 
 /// Chooses the best model for samples.
 struct Choose<'a> {
-    samples: &'a [Sample],
-    best: &'a mut Option<Learned>,
+    samples: &'a Samples,
+    best: &'a mut Result<Learned, Error>,
 }
 
 impl Task for Choose<'_> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        let blocks = self.samples.chunks(W::Double::LANES).map(Block::<W::Double>::new).collect();
-        *self.best = Some(choose_model(&Sampled::<W> { samples: self.samples, blocks }));
+        *self.best = Sampled::<W>::new(self.samples).map(|mut sampled| choose_model(&mut sampled));
     }
 }
 
@@ -175,54 +188,75 @@ impl Task for Choose<'_> {
 struct Block<V> {
     /// How many samples there are.
     samples: usize,
-    u: Vec<V>,
-    v: Vec<V>,
-    w: Vec<V>,
-    /// The mean edge lengths of the points' vertices, and of the samples' own.
-    grades: Vec<V>,
+    /// How many points the largest has.
+    rows: usize,
+    /// Where they start in [`Sampled::numbers`].
+    start: usize,
+    /// The mean edge lengths of the samples' own vertices.
     own_grade: V,
     slopes: [V; 2],
     count: V,
-}
-
-impl<V: Vector<Scalar = f64>> Block<V> {
-    fn new(samples: &[Sample]) -> Self {
-        let load = |number: &dyn Fn(&Sample) -> f64| {
-            V::from_lanes(&each(0.0, |lane| number(samples.get(lane).unwrap_or(&samples[0]))))
-        };
-        let most = samples.iter().map(|sample| sample.u.len()).max().unwrap_or(0);
-        let rows = |column: &dyn Fn(&Sample) -> &Vec<f64>, beyond: f64| {
-            (0..most).map(|row| load(&|sample| column(sample).get(row).copied().unwrap_or(beyond))).collect()
-        };
-        Block {
-            samples: samples.len(),
-            u: rows(&|sample| &sample.u, 0.0),
-            v: rows(&|sample| &sample.v, 0.0),
-            w: rows(&|sample| &sample.w, 0.0),
-            grades: rows(&|sample| &sample.grades, 1.0),
-            own_grade: load(&|sample| sample.grades[0]),
-            slopes: [load(&|sample| sample.slopes[0]), load(&|sample| sample.slopes[1])],
-            count: load(&|sample| sample.u.len() as f64),
-        }
-    }
 }
 
 /// All samples, for vectors of a width.
 struct Sampled<'a, W: Width> {
     samples: &'a [Sample],
     blocks: Vec<Block<W::Double>>,
+    /// The points of all blocks, column after column.
+    numbers: Vec<W::Double>,
+    /// For the fit of a block.
+    scratch: Vec<W::Double>,
 }
 
-fn choose_model<W: Width>(sampled: &Sampled<'_, W>) -> Learned {
+impl<'a, W: Width> Sampled<'a, W> {
+    fn new(all: &'a Samples) -> Result<Self, Error> {
+        let samples = &all.vertices[..];
+        let rows = samples.chunks(W::Double::LANES).map(|block| most_points(block)).sum::<usize>();
+        let mut sampled = Sampled {
+            samples,
+            blocks: reserved(samples.len().div_ceil(W::Double::LANES))?,
+            numbers: reserved(COLUMNS * rows)?,
+            scratch: filled(scratch(most_points(samples)), W::Double::zero())?,
+        };
+        for block in samples.chunks(W::Double::LANES) {
+            let load = |number: &dyn Fn(&Sample) -> f64| {
+                W::Double::from_lanes(&each(0.0, |lane| number(block.get(lane).unwrap_or(&block[0]))))
+            };
+            let (rows, start) = (most_points(block), sampled.numbers.len());
+            for column in 0..COLUMNS {
+                // Lengths stand in denominators.
+                let beyond = if column == COLUMNS - 1 { 1.0 } else { 0.0 };
+                let row = |row| load(&|sample| all.get(sample, column, row).unwrap_or(beyond));
+                sampled.numbers.extend((0..rows).map(row));
+            }
+            sampled.blocks.push(Block {
+                samples: block.len(),
+                rows,
+                start,
+                own_grade: load(&|sample| sample.grade),
+                slopes: [load(&|sample| sample.slopes[0]), load(&|sample| sample.slopes[1])],
+                count: load(&|sample| sample.count as f64),
+            });
+        }
+        Ok(sampled)
+    }
+}
+
+fn most_points(samples: &[Sample]) -> usize {
+    samples.iter().map(|sample| sample.count).max().unwrap_or(0)
+}
+
+fn choose_model<W: Width>(sampled: &mut Sampled<'_, W>) -> Learned {
     let tiny = sampled.samples.len() < FEW_SAMPLED;
     let mut best = sampled.learn(Coordinates::Circle, 0, 0, QUIET, None);
     if tiny {
         return best;
     }
     best.take(sampled.learn(Coordinates::Height, 0, 0, QUIET, Some(&best)), 0.0);
-    let mut grades: Vec<f64> = sampled.samples.iter().map(|sample| sample.grades[0]).collect();
-    let low = quantile(&mut grades, 0.05).unwrap_or(1.0);
-    let high = quantile(&mut grades, 0.95).unwrap_or(1.0);
+    let mut grades = [0.0; MOST_SAMPLED];
+    let grades = listed(&mut grades, sampled.samples.iter().map(|sample| sample.grade));
+    let low = quantile(grades, 0.05).unwrap_or(1.0);
+    let high = quantile(grades, 0.95).unwrap_or(1.0);
     if high > GRADED * low {
         for (noise_exponent, size_exponent) in [(1, 0), (2, 0), (1, 1)] {
             let coordinates = best.trial.coordinates;
@@ -278,7 +312,7 @@ struct Totals {
 impl<W: Width> Sampled<'_, W> {
     /// The best numbers for these choices, starting at those of others if there are any.
     fn learn(
-        &self,
+        &mut self,
         coordinates: Coordinates,
         noise_exponent: u8,
         size_exponent: u8,
@@ -316,18 +350,16 @@ impl<W: Width> Sampled<'_, W> {
         let mut least = f64::INFINITY;
         for jet in 0..3 {
             let enough = self.samples.iter().filter(|sample| sample.plain[jet].1 > 0.5);
-            let mut freedoms: Vec<f64> = enough.clone().map(|sample| sample.plain[jet].1).collect();
-            let mut variances: Vec<f64> = enough
-                .map(|sample| {
-                    let (squares, freedom) = sample.plain[jet];
-                    let grade = sample.grades[0];
-                    let factor = [grade, 1.0, 1.0 / grade][exponent as usize];
-                    squares / freedom * factor * factor
-                })
-                .collect();
+            let variance = |sample: &Sample| {
+                let (squares, freedom) = sample.plain[jet];
+                let factor = [sample.grade, 1.0, 1.0 / sample.grade][exponent as usize];
+                squares / freedom * factor * factor
+            };
+            let (mut freedoms, mut variances) = ([0.0; MOST_SAMPLED], [0.0; MOST_SAMPLED]);
+            let freedoms = listed(&mut freedoms, enough.clone().map(|sample| sample.plain[jet].1));
+            let variances = listed(&mut variances, enough.map(variance));
             if variances.len() >= 8
-                && let (Some(variance), Some(freedom)) =
-                    (quantile(&mut variances, rank), quantile(&mut freedoms, 0.5))
+                && let (Some(variance), Some(freedom)) = (quantile(variances, rank), quantile(freedoms, 0.5))
             {
                 least = least.min(variance / typical(rank, freedom));
             }
@@ -339,9 +371,10 @@ impl<W: Width> Sampled<'_, W> {
         (NOISE_PART * least).max(LEAST_NOISE * LEAST_NOISE)
     }
 
-    fn totals(&self, trial: &Trial, evidence: bool) -> Totals {
+    fn totals(&mut self, trial: &Trial, evidence: bool) -> Totals {
         let mut totals = Totals::default();
-        W::call(Evaluate { blocks: &self.blocks, trial, evidence, totals: &mut totals });
+        let (blocks, numbers, scratch) = (&self.blocks[..], &self.numbers[..], &mut self.scratch[..]);
+        W::call(Evaluate { blocks, numbers, scratch, trial, evidence, totals: &mut totals });
         totals
     }
 }
@@ -349,6 +382,8 @@ impl<W: Width> Sampled<'_, W> {
 /// Fits all samples with a trial's numbers.
 struct Evaluate<'a, V> {
     blocks: &'a [Block<V>],
+    numbers: &'a [V],
+    scratch: &'a mut [V],
     trial: &'a Trial,
     evidence: bool,
     totals: &'a mut Totals,
@@ -358,11 +393,8 @@ impl<V: Vector<Scalar = f64>> Task for Evaluate<'_, V> {
     /// The width is that of the blocks.
     #[inline(always)]
     fn run<W: Width>(self) {
-        let most = self.blocks.last().map_or(0, |block| scratch(block.u.len()));
-        // At most 255 points, so this is small.
-        let mut memory = vec![V::zero(); most];
         for block in self.blocks {
-            evaluate(block, self.trial, self.evidence, &mut memory, self.totals);
+            evaluate(block, self.numbers, self.trial, self.evidence, self.scratch, self.totals);
         }
     }
 }
@@ -370,19 +402,22 @@ impl<V: Vector<Scalar = f64>> Task for Evaluate<'_, V> {
 #[inline(always)]
 fn evaluate<V: Vector<Scalar = f64>>(
     block: &Block<V>,
+    numbers: &[V],
     trial: &Trial,
     evidence: bool,
     scratch: &mut [V],
     totals: &mut Totals,
 ) {
-    let heights = &mut Heights::new(scratch, block.u.len() - 1).0;
+    let heights = &mut Heights::new(scratch, block.rows - 1).0;
     let one = V::one();
     for (row, variance) in heights.variance.iter_mut().enumerate() {
-        let at = |column: &[V], beyond: V| if row < column.len() { column[row] } else { beyond };
-        heights.u[row] = at(&block.u, V::zero());
-        heights.v[row] = at(&block.v, V::zero());
-        heights.w[row] = at(&block.w, V::zero());
-        let grade = at(&block.grades, one);
+        let at = |column: usize, beyond: V| {
+            if row < block.rows { numbers[block.start + column * block.rows + row] } else { beyond }
+        };
+        heights.u[row] = at(0, V::zero());
+        heights.v[row] = at(1, V::zero());
+        heights.w[row] = at(2, V::zero());
+        let grade = at(3, one);
         let factor = match trial.noise_exponent {
             0 => one,
             1 => grade,

@@ -3,29 +3,69 @@
 use super::adaptive_model::MOST_AUTOMATIC_RINGS;
 use super::heights::{Frame, Heights, plain_residuals, prepare, scratch};
 use super::surroundings::Surroundings;
+use crate::error::{Error, reserved};
 use crate::simd::{MAX_LANES, Vector, each};
 use crate::sweep::{Counts, Patch, PatchQuantity};
-use crate::topology::Neighbourhood;
+use crate::topology::{MAX_NEIGHBOURS, Neighbourhood};
 use std::sync::{Mutex, PoisonError};
 
-/// A vertex to learn from: its points in its frame, in units of its mean edge length.
+/// A vertex to learn from.
 pub(super) struct Sample {
     pub vertex: u32,
-    pub u: Vec<f64>,
-    pub v: Vec<f64>,
-    pub w: Vec<f64>,
-    /// The mean edge lengths of the points' vertices.
-    pub grades: Vec<f64>,
+    /// How many points there are, itself among them.
+    pub count: usize,
+    /// Where its points start in [`Samples::numbers`].
+    start: usize,
+    /// Its mean edge length, in units of the mesh's.
+    pub grade: f64,
     pub slopes: [f64; 2],
     /// What plain jets leave, and how many more points than coefficients they had.
     pub plain: [(f64, f64); 3],
+}
+
+/// What is told of a point: its coordinates in the vertex's frame, in units of the vertex's mean edge length, and its own vertex's mean
+/// edge length.
+pub(super) const COLUMNS: usize = 4;
+
+/// Vertices to learn from, with their points.
+pub(super) struct Samples {
+    pub vertices: Vec<Sample>,
+    /// Column after column, sample after sample.
+    numbers: Vec<f64>,
+}
+
+impl Samples {
+    /// Room for so many vertices of a mesh of `vertex_count`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn with_room(count: usize, vertex_count: usize) -> Result<Self, Error> {
+        let points = vertex_count.min(MAX_NEIGHBOURS) + 1;
+        Ok(Samples { vertices: reserved(count)?, numbers: reserved(count * COLUMNS * points)? })
+    }
+
+    /// A number of a sample's point; `None` if it has fewer points.
+    pub fn get(&self, sample: &Sample, column: usize, row: usize) -> Option<f64> {
+        (row < sample.count).then(|| self.numbers[sample.start + column * sample.count + row])
+    }
+
+    fn add(&mut self, sample: Sample, numbers: impl Iterator<Item = f64>) {
+        let start = self.numbers.len();
+        // The room is there already.
+        self.numbers.extend(numbers);
+        if self.numbers[start..].iter().all(|x| x.is_finite()) {
+            self.vertices.push(Sample { start, ..sample });
+        } else {
+            self.numbers.truncate(start);
+        }
+    }
 }
 
 /// Puts samples into their frames.
 pub(super) struct Collector<'a> {
     pub around: &'a Surroundings,
     pub edge_length: f64,
-    pub samples: Mutex<Vec<Sample>>,
+    pub samples: Mutex<Samples>,
 }
 
 impl Collector<'_> {
@@ -45,26 +85,28 @@ impl Collector<'_> {
         });
         let (counts, slopes) = (patch.count.to_lanes(), [slopes[0].to_lanes(), slopes[1].to_lanes()]);
         for (lane, &vertex) in vertices.iter().enumerate() {
-            let rows = 0..counts[lane] as usize + 1;
-            let column = |numbers: &[V]| rows.clone().map(|row| numbers[row].to_lanes()[lane]).collect();
+            let count = counts[lane] as usize + 1;
+            let own = self.around.edge_lengths[vertex as usize];
             let grade = |row: usize| match row {
-                0 => self.around.edge_lengths[vertex as usize],
+                0 => own,
                 _ => patch.neighbour_value(row - 1).map_or(1.0, |value| value.to_lanes()[lane]),
+            };
+            let number = |index: usize| match (index / count, index % count) {
+                (0, row) => heights.u[row].to_lanes()[lane],
+                (1, row) => heights.v[row].to_lanes()[lane],
+                (2, row) => heights.w[row].to_lanes()[lane],
+                (_, row) => grade(row) / self.edge_length,
             };
             let sample = Sample {
                 vertex,
-                u: column(heights.u),
-                v: column(heights.v),
-                w: column(heights.w),
-                grades: rows.clone().map(|row| grade(row) / self.edge_length).collect(),
+                count,
+                start: 0,
+                grade: own / self.edge_length,
                 slopes: [slopes[0][lane], slopes[1][lane]],
                 plain: each((0.0, 0.0), |jet| (plain[jet].0[lane], plain[jet].1[lane])),
             };
-            let all_finite =
-                [&sample.u, &sample.v, &sample.w, &sample.grades].into_iter().flatten().all(|x| x.is_finite());
-            if all_finite {
-                self.samples.lock().unwrap_or_else(PoisonError::into_inner).push(sample);
-            }
+            let mut samples = self.samples.lock().unwrap_or_else(PoisonError::into_inner);
+            samples.add(sample, (0..COLUMNS * count).map(number));
         }
     }
 }

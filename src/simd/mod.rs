@@ -7,14 +7,18 @@
 //! Everything on the way from [`Task::run`] down to an intrinsic must be `#[inline(always)]`: a call that is not
 //! inlined loses the CPU features and becomes several times slower.
 
+mod environment;
 mod math;
 mod portable;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+use std::ffi::CStr;
+use std::ptr::NonNull;
 use std::sync::OnceLock;
 
+pub(crate) use environment::Environment;
 pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
 pub(crate) use vector::{MAX_LANES, Mask, Real, Vector, Vector3, as_lanes, each};
 
@@ -45,7 +49,13 @@ impl Level {
     pub fn best() -> Level {
         static BEST: OnceLock<Level> = OnceLock::new();
         *BEST.get_or_init(|| {
-            let cap = std::env::var("UMBILIC_SIMD").ok().and_then(|name| Level::named(&name));
+            // Not by the standard library, which allocates.
+            // SAFETY: a string of the C library's that ends with a NUL; a host that changes its environment meanwhile races with every
+            // reader of it, as it knows.
+            let name = unsafe {
+                NonNull::new(libc::getenv(c"UMBILIC_SIMD".as_ptr())).map(|name| CStr::from_ptr(name.as_ptr()))
+            };
+            let cap = name.and_then(|name| Level::named(name.to_str().ok()?));
             cap.map_or(Level::detected(), |cap| cap.min(Level::detected()))
         })
     }

@@ -1,7 +1,7 @@
 //! Large blocks straight from the allocator, in huge pages where the system has them.
 
 use crate::error::{Error, reserved};
-use std::alloc::{Layout, alloc_zeroed};
+use std::alloc::{Layout, alloc, alloc_zeroed};
 
 /// Numbers of which all bits zero is a value.
 ///
@@ -39,6 +39,20 @@ pub(crate) fn zeroed<T: Zero>(count: usize) -> Result<Vec<T>, Error> {
         }
         use_huge_pages(block.cast(), layout.size());
         Ok(Vec::from_raw_parts(block, count, count))
+    }
+}
+
+/// A box with `value` in it, or [`Error::OutOfMemory`].
+pub(crate) fn boxed<T>(value: T) -> Result<Box<T>, Error> {
+    const { assert!(size_of::<T>() > 0) };
+    // SAFETY: the layout has a size; a block of it is as good as one of `Box::new`.
+    unsafe {
+        let block = alloc(Layout::new::<T>()).cast::<T>();
+        if block.is_null() {
+            return Err(Error::OutOfMemory);
+        }
+        block.write(value);
+        Ok(Box::from_raw(block))
     }
 }
 

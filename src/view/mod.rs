@@ -2,8 +2,10 @@
 //!
 //! Everything is a pointer, a count and a byte stride, so a mesh library's own arrays, an interleaved vertex buffer or
 //! a numpy array are read and written in place. This module, with `simd` and `capi`, is where `unsafe` lives: what
-//! leaves it is checked once (alignment, strides, index ranges) and safe from then on.
+//! leaves it is checked once (alignment, strides, index ranges) and safe from then on. What the library asks of the system
+//! itself (huge pages, threads, the number of cores) is here for the same reason.
 
+mod cores;
 mod faces;
 mod memory;
 mod output;
@@ -12,10 +14,12 @@ mod polyline;
 mod ring_table;
 mod rings;
 mod slots;
+mod threads;
 
+pub(crate) use cores::core_count;
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
-pub(crate) use memory::{Zero, zeroed};
+pub(crate) use memory::{Zero, boxed, zeroed};
 pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};
@@ -24,6 +28,7 @@ pub use polyline::PolylinePoints;
 pub(crate) use ring_table::{RingPart, RingTable};
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
 pub(crate) use slots::{BLOCK, Put, SLOTS, Slots, SlotsPart};
+pub(crate) use threads::with_helpers;
 
 use crate::error::Error;
 

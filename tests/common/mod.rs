@@ -5,6 +5,7 @@ pub mod adaptive;
 pub mod adaptive_oracle;
 pub mod answer;
 pub mod bodies;
+pub mod calls;
 pub mod capi;
 pub mod curvature;
 pub mod curvature_oracle;

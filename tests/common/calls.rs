@@ -1,0 +1,339 @@
+//! Every function of the C interface that computes something, as a list: prepared first, then called as often as a test likes.
+// Every call keeps the contract that the header states; where a test breaks it on purpose, that is the test.
+#![allow(clippy::undocumented_unsafe_blocks)]
+
+use super::capi::{ALL, Handle, faces, message, points, zeroed};
+use super::curvature::{METHODS, OUTPUTS, Out, options};
+use super::mesh::Mesh;
+use std::ffi::c_void;
+use umbilic::capi::*;
+
+/// What a call is to compute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Call {
+    Create,
+    Stats,
+    Valence,
+    Learn,
+    Normals(umb_weight),
+    OneShot(umb_weight),
+    FaceNormals,
+    Curvatures(umb_curvature_method),
+    /// A method of regions, over balls.
+    Balls(umb_curvature_method),
+    EdgeSections(umb_weight),
+    DirectionSections(umb_weight),
+    Polyline,
+}
+
+/// All of them; weights that need no code of their own in a call are left to one.
+pub fn all() -> Vec<Call> {
+    let weights = || ALL.into_iter().chain([UMB_WEIGHT_ADAPTIVE_JET, UMB_WEIGHT_TILTED_SECTIONS]);
+    let some = [UMB_WEIGHT_CONFORMAL, UMB_WEIGHT_JET, UMB_WEIGHT_ADAPTIVE_JET, UMB_WEIGHT_TILTED_SECTIONS];
+    [Call::Create, Call::Stats, Call::Valence, Call::Learn, Call::FaceNormals, Call::Polyline]
+        .into_iter()
+        .chain(weights().map(Call::Normals))
+        .chain([Call::OneShot(UMB_WEIGHT_CONFORMAL), Call::OneShot(UMB_WEIGHT_ADAPTIVE_JET)])
+        .chain(METHODS.map(Call::Curvatures))
+        .chain([UMB_CURVATURE_NORMAL_CYCLE, UMB_CURVATURE_CORRECTED_MEASURE].map(Call::Balls))
+        .chain(some.map(Call::EdgeSections))
+        .chain(some.map(Call::DirectionSections))
+        .collect()
+}
+
+impl Call {
+    /// Whether it takes a `umb_run`, and so threads, a list and progress.
+    pub fn runs(self) -> bool {
+        !matches!(self, Call::Create | Call::Stats | Call::Valence)
+    }
+
+    /// Whether it takes a list of vertices.
+    pub fn takes_list(self) -> bool {
+        self.runs() && !matches!(self, Call::FaceNormals | Call::Polyline | Call::Learn)
+    }
+}
+
+/// A mesh in both precisions, with a handle.
+pub struct Fixture {
+    pub mesh: Mesh,
+    single: Vec<[f32; 3]>,
+    handle: Handle,
+    directions: Vec<[f64; 3]>,
+}
+
+impl Fixture {
+    pub fn new(mesh: Mesh) -> Self {
+        let directions = vec![[1.0, 0.3, -0.2], [0.1, -1.0, 0.4]];
+        Fixture { single: mesh.single(), handle: Handle::new(&mesh), directions, mesh }
+    }
+}
+
+/// How to call.
+#[derive(Clone, Copy)]
+pub struct Setting<'a> {
+    pub single: bool,
+    pub threads: u32,
+    pub simd: umb_simd,
+    pub list: Option<&'a [u32]>,
+    pub progress: umb_progress,
+    pub user: *mut c_void,
+}
+
+impl Setting<'_> {
+    pub fn threads(threads: u32) -> Self {
+        Setting {
+            single: false,
+            threads,
+            simd: UMB_SIMD_BEST,
+            list: None,
+            progress: None,
+            user: std::ptr::null_mut(),
+        }
+    }
+}
+
+/// A call with all its arguments.
+pub struct Prepared<'a> {
+    pub call: Call,
+    fixture: &'a Fixture,
+    single: bool,
+    faces: umb_faces,
+    points: umb_points,
+    polyline: umb_polyline,
+    topology_options: umb_topology_options,
+    normal_options: umb_normal_options,
+    face_options: umb_face_options,
+    curvature_options: umb_curvature_options,
+    section_options: umb_section_options,
+    polyline_options: umb_polyline_options,
+    normal_outputs: umb_normal_outputs,
+    face_outputs: umb_face_outputs,
+    curvature_outputs: umb_curvature_outputs,
+    section_outputs: umb_section_outputs,
+    polyline_outputs: umb_polyline_outputs,
+    model: umb_adaptive_model,
+    stats: umb_topology_stats,
+    valence: usize,
+    handle: *mut umb_topology,
+    pub error: umb_error,
+    /// What the outputs point to.
+    arrays: Vec<Vec<f64>>,
+}
+
+/// What arrays hold before a call: no result has these bits.
+pub const UNTOUCHED: f64 = f64::from_bits(0xa5a5_a5a5_a5a5_a5a5);
+
+impl<'a> Prepared<'a> {
+    pub fn new(call: Call, fixture: &'a Fixture, setting: &'a Setting<'_>) -> Self {
+        let mesh = &fixture.mesh;
+        let mut run: umb_run = zeroed();
+        (run.threads, run.simd) = (setting.threads, setting.simd);
+        (run.progress, run.user) = (setting.progress, setting.user);
+        if let Some(list) = setting.list.filter(|_| call.takes_list()) {
+            (run.vertices, run.vertex_count) = (list.as_ptr(), list.len());
+        }
+        let positions = if setting.single { points(&fixture.single) } else { points(&mesh.positions) };
+        let scalar = positions.scalar;
+        let mut prepared = Prepared {
+            call,
+            fixture,
+            single: setting.single,
+            faces: faces(mesh),
+            points: positions,
+            polyline: umb_polyline {
+                data: positions.data,
+                count: positions.count,
+                stride: 0,
+                scalar,
+                dimension: 3,
+                closed: 1,
+                reserved: 0,
+            },
+            topology_options: zeroed(),
+            normal_options: zeroed(),
+            face_options: zeroed(),
+            curvature_options: zeroed(),
+            section_options: zeroed(),
+            polyline_options: zeroed(),
+            normal_outputs: zeroed(),
+            face_outputs: zeroed(),
+            curvature_outputs: zeroed(),
+            section_outputs: zeroed(),
+            polyline_outputs: zeroed(),
+            model: zeroed(),
+            stats: zeroed(),
+            valence: usize::MAX,
+            handle: std::ptr::null_mut(),
+            error: zeroed(),
+            arrays: vec![],
+        };
+        (prepared.topology_options.threads, prepared.topology_options.simd) = (setting.threads, setting.simd);
+        prepared.normal_options.run = run;
+        prepared.face_options.run = run;
+        prepared.curvature_options.run = run;
+        prepared.section_options.run = run;
+        prepared.polyline_options.run = run;
+        let (vertices, entries) = (mesh.positions.len(), unsafe {
+            *umb_topology_ring_offsets(fixture.handle.0).add(mesh.positions.len()) as usize
+        });
+        match call {
+            Call::Create | Call::Stats | Call::Valence | Call::Learn => {}
+            Call::Normals(weight) | Call::OneShot(weight) => {
+                prepared.normal_options.weight = weight;
+                prepared.normal_outputs.normal = prepared.array(3 * vertices);
+                prepared.normal_outputs.sum = prepared.array(3 * vertices);
+                prepared.normal_outputs.status = prepared.bytes(vertices);
+            }
+            Call::FaceNormals => {
+                prepared.face_outputs.normal = prepared.array(3 * mesh.face_count());
+                prepared.face_outputs.area_vector = prepared.array(3 * mesh.face_count());
+                prepared.face_outputs.status = prepared.bytes(mesh.face_count());
+            }
+            Call::Curvatures(method) | Call::Balls(method) => {
+                prepared.curvature_options = options(method);
+                prepared.curvature_options.run = run;
+                if matches!(call, Call::Balls(_)) {
+                    prepared.curvature_options.radius = 0.5;
+                }
+                for output in OUTPUTS.into_iter().filter(|output: &Out| output.is_of(method)) {
+                    let array = prepared.array(output.components() * vertices);
+                    *output.field(&mut prepared.curvature_outputs) = array;
+                }
+                prepared.curvature_outputs.status = prepared.bytes(vertices);
+            }
+            Call::EdgeSections(weight) => {
+                prepared.section_options.weight = weight;
+                prepared.section_outputs.curvature = prepared.array(entries);
+                prepared.section_outputs.normal = prepared.array(3 * vertices);
+                prepared.section_outputs.status = prepared.bytes(entries);
+            }
+            Call::DirectionSections(weight) => {
+                prepared.section_options.weight = weight;
+                prepared.section_options.shared = 1;
+                prepared.section_options.directions = points(&fixture.directions);
+                prepared.section_outputs.curvature = prepared.array(fixture.directions.len() * vertices);
+                prepared.section_outputs.normal = prepared.array(3 * vertices);
+                prepared.section_outputs.status = prepared.bytes(fixture.directions.len() * vertices);
+            }
+            Call::Polyline => {
+                prepared.polyline_outputs.circle = prepared.array(vertices);
+                prepared.polyline_outputs.parabola = prepared.array(vertices);
+                prepared.polyline_outputs.length_parabola = prepared.array(vertices);
+                prepared.polyline_outputs.symmetric_parabola = prepared.array(vertices);
+                prepared.polyline_outputs.status = prepared.bytes(vertices);
+            }
+        }
+        prepared
+    }
+
+    fn array(&mut self, scalars: usize) -> umb_output {
+        let words = if self.single { scalars.div_ceil(2) } else { scalars };
+        self.arrays.push(vec![UNTOUCHED; words]);
+        let data = self.arrays.last_mut().unwrap().as_mut_ptr().cast();
+        umb_output { data, stride: 0, scalar: if self.single { UMB_SCALAR_F32 } else { UMB_SCALAR_F64 }, reserved: 0 }
+    }
+
+    fn bytes(&mut self, count: usize) -> umb_status_output {
+        self.arrays.push(vec![UNTOUCHED; count.div_ceil(8)]);
+        umb_status_output { data: self.arrays.last_mut().unwrap().as_mut_ptr().cast(), stride: 0 }
+    }
+
+    /// Calls. Nothing of the test's own allocates in here.
+    pub fn call(&mut self) -> umb_status {
+        let (topology, points, error) =
+            (self.fixture.handle.0.cast_const(), &raw const self.points, &raw mut self.error);
+        unsafe {
+            match self.call {
+                Call::Create => {
+                    let count = self.fixture.mesh.positions.len();
+                    umb_topology_create(&self.faces, count, &self.topology_options, &mut self.handle, error)
+                }
+                Call::Stats => umb_topology_get_stats(topology, &mut self.stats, error),
+                Call::Valence => {
+                    let mut worst = UMB_OK;
+                    for vertex in 0..self.fixture.mesh.positions.len() {
+                        let status = umb_topology_valence(topology, vertex, &mut self.valence, error);
+                        worst = if status == UMB_OK { worst } else { status };
+                    }
+                    worst
+                }
+                Call::Learn => umb_learn_model(topology, points, &self.normal_options, &mut self.model, error),
+                Call::Normals(_) => {
+                    umb_vertex_normals(topology, points, &self.normal_options, &self.normal_outputs, error)
+                }
+                Call::OneShot(_) => {
+                    let (options, outputs) = (&self.normal_options, &self.normal_outputs);
+                    umb_vertex_normals_from_faces(&self.faces, points, options, outputs, error)
+                }
+                Call::FaceNormals => {
+                    umb_face_normals(&self.faces, points, &self.face_options, &self.face_outputs, error)
+                }
+                Call::Curvatures(_) | Call::Balls(_) => {
+                    umb_curvatures(topology, points, &self.curvature_options, &self.curvature_outputs, error)
+                }
+                Call::EdgeSections(_) => {
+                    umb_edge_sections(topology, points, &self.section_options, &self.section_outputs, error)
+                }
+                Call::DirectionSections(_) => {
+                    umb_direction_sections(topology, points, &self.section_options, &self.section_outputs, error)
+                }
+                Call::Polyline => {
+                    umb_polyline_curvatures(&self.polyline, &self.polyline_options, &self.polyline_outputs, error)
+                }
+            }
+        }
+    }
+
+    /// As [`Prepared::call`], which must succeed; frees what was created.
+    pub fn succeed(&mut self) {
+        let status = self.call();
+        assert_eq!(status, UMB_OK, "{:?}: {}", self.call, message(&self.error));
+        self.free();
+    }
+
+    pub fn free(&mut self) {
+        unsafe { umb_topology_destroy(std::mem::replace(&mut self.handle, std::ptr::null_mut())) };
+    }
+
+    /// All that the call may have written, bit by bit.
+    pub fn bits(&self) -> Vec<u64> {
+        let model = (self.model.edge_length, self.model.noise, self.model.sizes, self.model.sample);
+        let stats = (self.stats.edge_count, self.stats.euler_characteristic, self.stats.boundary_loops);
+        let numbers = [model.0, model.1].into_iter().chain(model.2).map(f64::to_bits);
+        let counts = [model.3 as u64, stats.0, stats.1 as u64, stats.2, self.valence as u64];
+        self.arrays.iter().flatten().map(|x| x.to_bits()).chain(numbers).chain(counts).collect()
+    }
+
+    /// Whether nothing has been written.
+    pub fn is_untouched(&self) -> bool {
+        let arrays = self.arrays.iter().flatten().all(|x| x.to_bits() == UNTOUCHED.to_bits());
+        arrays && self.model.edge_length == 0.0 && self.stats.vertex_count == 0 && self.handle.is_null()
+    }
+
+    /// Makes all outputs as they were before the call.
+    pub fn reset(&mut self) {
+        self.arrays.iter_mut().for_each(|array| array.fill(UNTOUCHED));
+        (self.model, self.stats, self.valence, self.error) = (zeroed(), zeroed(), usize::MAX, zeroed());
+    }
+
+    /// Whether every byte of the outputs is as `other` has it, or untouched.
+    pub fn is_part_of(&self, other: &Prepared<'_>) -> bool {
+        let bytes = |prepared: &Prepared<'_>| -> Vec<u8> {
+            prepared.arrays.iter().flatten().flat_map(|x| x.to_bits().to_ne_bytes()).collect()
+        };
+        bytes(self).iter().zip(bytes(other)).all(|(&found, full)| found == 0xa5 || found == full)
+    }
+
+    /// Whether every number that was written is finite.
+    pub fn is_finite(&self) -> bool {
+        let singles = |x: &f64| [x.to_bits() as u32, (x.to_bits() >> 32) as u32];
+        let finite = |x: &f64| match self.single {
+            true => singles(x).into_iter().all(|bits| f32::from_bits(bits).is_finite()),
+            false => x.is_finite(),
+        };
+        // The last array holds the bytes of the status.
+        let numbers = &self.arrays[..self.arrays.len().saturating_sub(1)];
+        numbers.iter().flatten().filter(|x| x.to_bits() != UNTOUCHED.to_bits()).all(finite)
+            && [self.model.edge_length, self.model.noise].into_iter().chain(self.model.sizes).all(f64::is_finite)
+    }
+}
