@@ -186,3 +186,69 @@ pub(super) unsafe fn read_required<T: Copy>(pointer: *const T, what: &'static st
     // SAFETY: not null, so readable.
     Ok(unsafe { pointer.read_unaligned() })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::status::{UMB_ERROR_INTERNAL, UMB_NO_ELEMENT};
+    use super::*;
+    use crate::parallel::{Run, for_each_chunk};
+    use std::ffi::CStr;
+
+    fn message(error: &umb_error) -> &str {
+        // SAFETY: the library closes messages with a NUL.
+        unsafe { CStr::from_ptr(error.message.as_ptr()) }.to_str().unwrap()
+    }
+
+    /// A call whose `fault`-th of 40 chunks panics, on whichever thread has it.
+    fn faulty(threads: usize, fault: usize) -> (umb_status, umb_error) {
+        // SAFETY: an error may be zero.
+        let mut error: umb_error = unsafe { std::mem::zeroed() };
+        let body = || {
+            let mut run = Run { threads, ..Run::default() };
+            for_each_chunk(&mut run, 40, |claims| {
+                while let Some(chunk) = claims.next() {
+                    assert_ne!(chunk, fault, "injected");
+                    std::thread::yield_now();
+                }
+            })
+        };
+        // SAFETY: the error is one.
+        (unsafe { guard(&mut error, body) }, error)
+    }
+
+    #[test]
+    fn a_panic_becomes_a_status_on_any_thread() {
+        for threads in [1, 2, 7] {
+            for fault in 0..40 {
+                let (status, error) = faulty(threads, fault);
+                assert_eq!((status, error.status, error.element), (UMB_ERROR_INTERNAL, status, UMB_NO_ELEMENT));
+                assert!(message(&error).starts_with("defect in umbilic, please report: "), "{}", message(&error));
+                assert!(message(&error).contains("injected"), "{}", message(&error));
+                // The next call is as good as ever.
+                assert_eq!(faulty(threads, 40).0, UMB_OK);
+                assert!(!is_quiet());
+            }
+        }
+    }
+
+    #[test]
+    fn a_call_within_a_callback_of_a_call() {
+        let inner = || {
+            outside(|| assert_eq!(faulty(2, 3).0, UMB_ERROR_INTERNAL));
+            assert!(is_quiet());
+            Ok(())
+        };
+        // SAFETY: no error is asked for.
+        assert_eq!(unsafe { guard(std::ptr::null_mut(), inner) }, UMB_OK);
+    }
+
+    /// Runs in a process of its own, whose output is looked at.
+    #[test]
+    fn nothing_is_printed() {
+        let name = "capi::guard::tests::a_panic_becomes_a_status_on_any_thread";
+        let mut command = std::process::Command::new(std::env::current_exe().unwrap());
+        let output = command.args(["--exact", name, "--nocapture"]).output().unwrap();
+        let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success() && !printed.contains("injected"), "{printed}");
+    }
+}
