@@ -1,6 +1,7 @@
 //! The same bits for any number of threads, any vectors, any subset, any run.
 
 mod common;
+use common::calls::{Fixture, Prepared, Setting, all};
 use common::capi::{ALL, Handle, normals};
 use common::mesh::{self, Mesh};
 use common::real;
@@ -50,6 +51,30 @@ fn threads_and_vectors_change_no_bit() {
                 let same = bits(&found.normal) == bits(&base.normal) && bits(&found.sum) == bits(&base.sum);
                 assert!(same, "{}, f64, weight {weight}, {threads} threads, simd {simd}", mesh.name);
                 assert_eq!(found.status, base.status);
+            }
+        }
+    }
+}
+
+/// Sections, face normals, polylines and models among them.
+#[test]
+fn every_call_with_every_level_and_up_to_eight_threads() {
+    for quads in [0.0, 0.5] {
+        let fixture = Fixture::new(mesh::torus(70, 45, 0.4, quads, 7));
+        for call in all() {
+            for single in [false, true] {
+                let plain = Setting { single, simd: UMB_SIMD_PORTABLE, ..Setting::threads(1) };
+                let mut expected = Prepared::new(call, &fixture, &plain);
+                expected.succeed();
+                for simd in [UMB_SIMD_PORTABLE, UMB_SIMD_SSE2, UMB_SIMD_AVX2, UMB_SIMD_AVX512] {
+                    for threads in 1..=8 {
+                        let setting = Setting { single, simd, ..Setting::threads(threads) };
+                        let mut prepared = Prepared::new(call, &fixture, &setting);
+                        prepared.succeed();
+                        let place = (call, single, simd, threads);
+                        assert!(prepared.bits() == expected.bits(), "{}, {place:?}", fixture.mesh.name);
+                    }
+                }
             }
         }
     }

@@ -19,7 +19,7 @@ use super::vertex::{NORMAL_SHARE, VertexNormals, unit_normals};
 use super::{Section, SectionOutputs, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::simd::{Mask, Vector, Vector3};
+use crate::simd::{Mask, Real, Vector, Vector3};
 use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::Topology;
 use crate::view::Points;
@@ -164,7 +164,11 @@ fn curvature<V: Vector>(found: &Crossings<V>, normal: Vector3<V>, section: Secti
     let common = scale_front.min(scale_back);
     let (a, c) = (front * scale_front, back * scale_back);
     let three = ThreePoints::new(a, common / scale_front, c, common / scale_back, (back - front) * common);
-    let size = three.curvature(section, common * scale);
+    // Of the smallest meshes the product of both scales is beyond the range, and curvatures may still be 0.
+    let product = common * scale;
+    let fits = product.lt(V::splat(V::Scalar::INFINITY));
+    let (within, after) = (V::select(fits, product, scale), V::select(fits, V::one(), common));
+    let size = three.curvature(section, within) * after;
     let bisector =
         a * (V::one() / positive_or_one(a.squared().sqrt())) + c * (V::one() / positive_or_one(c.squared().sqrt()));
     let towards = zero.lt(bisector.dot(normal));

@@ -124,8 +124,10 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
     // The vertex itself.
     matrix[0][0] = V::one();
     for index in 0..patch.len_within(2) {
+        let within = patch.weight_within(2, index);
         let Vector3 { x: u, y: v, z: w } = start.components(patch.point(index)) * unit;
-        let weight = patch.weight_within(2, index) / (V::one() + u * u + v * v);
+        let [u, v, w] = where_counted(within, [u, v, w]);
+        let weight = within / (V::one() + u * u + v * v);
         let terms = [V::one(), u, v, u * u, u * v, v * v];
         for row in 0..QUADRIC {
             let weighted = terms[row] * weight;
@@ -152,6 +154,16 @@ fn frame<V: Vector<Scalar = f64>>(patch: &Patch<'_, V>, unit: V) -> Axes<V> {
         y: V::select(turned, normal.y, patch.normal.y),
         z: V::select(turned, normal.z, patch.normal.z),
     })
+}
+
+/// A point in the lanes where its weight is not 0, and zeros elsewhere: there a point of a further ring may stand, whose coordinates may have left the
+/// range, and infinity times 0 is no number. Which lanes look at such depends on their neighbours.
+#[inline(always)]
+fn where_counted<V: Vector>(weight: V, point: [V; 3]) -> [V; 3] {
+    let zero = V::zero();
+    let counted = zero.lt(weight);
+    let [u, v, w] = point;
+    [V::select(counted, u, zero), V::select(counted, v, zero), V::select(counted, w, zero)]
 }
 
 /// Goes over to the coordinates of the setting, and sets the variances and weights of all points. To be called once.
@@ -220,7 +232,8 @@ fn plain_residual<V: Vector<Scalar = f64>, const K: usize>(
         let (mut u, mut v, mut w) = (V::zero(), V::zero(), V::zero());
         if row < length {
             let back = heights.back[row];
-            (u, v, w) = (heights.u[row] * back, heights.v[row] * back, heights.w[row]);
+            let point = [heights.u[row] * back, heights.v[row] * back, heights.w[row]];
+            [u, v, w] = where_counted(weight, point);
         }
         let mut terms = [weight; K];
         let (mut first, mut length) = (0, 1);
