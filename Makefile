@@ -14,7 +14,6 @@ CMAKE_BUILD := target/examples
 VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
-STRICT := -Wall -Wextra -Wpedantic -Wconversion -Werror
 
 .PHONY: help demo test test-rust test-c test-examples test-peers lint bench bench-programs bench-instructions accuracy \
   paper pictures header packages clean FORCE
@@ -80,20 +79,9 @@ test-rust: $(MESHES)
 	  $(MAKE) --no-print-directory $(LIBRARY); built=$$?; wait $$tests && exit $$built
 	UMBILIC_MESHES=$(CURDIR)/$(MESHES) UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(CARGO) test --locked --features cli
 
-# The header in every language version that it promises, linked to the shared and to the static library.
+# The header in every language version that it promises, the C and C++ programs of tests/c, and the README's C.
 test-c: $(LIBRARY) | packages
-	@mkdir -p target/c
-	for standard in c99 c11 c17; do \
-	  $(CC) -std=$$standard $(STRICT) -Iinclude tests/c/header.c -o target/c/header -Ltarget/release -lumbilic \
-	    -Wl,-rpath,$(CURDIR)/target/release && target/c/header || exit 1; \
-	done
-	for standard in c++11 c++14 c++17 c++20; do \
-	  $(CXX) -x c++ -std=$$standard $(STRICT) -Iinclude tests/c/header.c -o target/c/header -Ltarget/release \
-	    -lumbilic -Wl,-rpath,$(CURDIR)/target/release && target/c/header || exit 1; \
-	done
-	$(CC) -std=c99 $(STRICT) -Iinclude tests/c/header.c target/release/libumbilic.a -o target/c/header-static \
-	  -lgcc_s -lutil -lrt -lpthread -lm -ldl -lc && target/c/header-static
-	$(CC) -std=c11 $(STRICT) -Iinclude -c tests/c/layout.c -o target/c/layout.o
+	CC="$(CC)" CXX="$(CXX)" tests/c/test.sh
 	sed -n '/^```c$$/,/^```$$/p' README.md | grep -v '^```' > target/c/readme.c
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinclude -c target/c/readme.c -o target/c/readme.o
 	for script in benches/speed/*.py; do \
@@ -128,7 +116,7 @@ $(MESHES): | packages
 
 # ---- Debian packages ----
 
-PACKAGES := gcc g++ binutils cmake libopenmesh-dev libcgal-dev libeigen3-dev python3-venv
+PACKAGES := gcc g++ clang binutils cmake libopenmesh-dev libcgal-dev libeigen3-dev python3-venv
 
 packages:
 	@.ci/packages $(PACKAGES)

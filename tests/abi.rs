@@ -39,6 +39,30 @@ fn layouts() {
     layout!(umb_topology_stats: 152, struct_size 0, reserved 4, vertex_count 8, face_count 16, corner_count 24, edge_count 32, boundary_edges 40, non_manifold_edges 48, winding_edges 56, isolated_vertices 64, boundary_vertices 72, non_manifold_vertices 80, degenerate_faces 88, ignored_faces 96, duplicate_faces 104, component_count 112, boundary_loops 120, euler_characteristic 128, max_valence 136, bytes 144);
 }
 
+/// The two lists name every field of every struct of the header.
+#[test]
+fn layouts_are_complete() {
+    let read = |path: &str| std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let (header, c, rust) = (read("include/umbilic.h"), read("tests/c/layout.c"), read("tests/abi.rs"));
+    let mut structs = 0;
+    for definition in header.split("typedef struct ").skip(1) {
+        let Some((name, body)) = definition.split_once(" {\n") else { continue };
+        let Some((body, _)) = body.split_once("\n}") else { continue };
+        if name.contains(';') {
+            continue; // opaque
+        }
+        structs += 1;
+        assert!(c.contains(&format!("SIZE({name}, ")), "{name} in layout.c");
+        let list = rust.lines().find(|line| line.contains(&format!("layout!({name}: "))).expect(name);
+        for line in body.lines().filter(|line| line.ends_with(';')) {
+            let field = line.trim_end_matches(';').split('[').next().unwrap().rsplit([' ', '*']).next().unwrap();
+            assert!(c.contains(&format!("OFFSET({name}, {field}, ")), "{name}.{field} in layout.c");
+            assert!(list.contains(&format!(" {field} ")), "{name}.{field} in abi.rs");
+        }
+    }
+    assert!(structs > 20, "only {structs} structs found");
+}
+
 /// Exactly the functions of the list are exported, under the shared library's own name. `UMBILIC_LIBRARY` names the
 /// library, as `make test` sets it.
 #[test]
