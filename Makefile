@@ -6,6 +6,7 @@ CC ?= cc
 CXX ?= c++
 MESH ?=
 BENCH ?=
+SANITIZE ?=
 
 LIBRARY := target/release/libumbilic.so
 # Where real meshes are found or fetched to; every mesh test reads them from there.
@@ -15,12 +16,14 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint bench bench-programs bench-instructions accuracy \
+.PHONY: help demo test test-rust test-c test-examples test-peers lint abi sanitize bench bench-programs bench-instructions accuracy \
   paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
+	@echo "make abi                  the binary interface against that of version 0.1.0"
+	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
 	@echo "make bench-instructions   instructions that each kernel takes, compared with those that are kept [UPDATE=1]"
 	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
@@ -113,6 +116,23 @@ $(VENV)/done: tests/peers/requirements.txt | packages
 
 $(MESHES): | packages
 	tests/peers/meshes.sh target/meshes
+
+# ---- the binary interface ----
+
+# Against version 0.1.0, which is kept in tests/abi. UPDATE=1 keeps today's instead: only until 0.1.0 is released.
+abi: $(LIBRARY)
+	@.ci/packages gcc abigail-tools
+	CC="$(CC)" PYTHON="$(PYTHON)" tests/abi/check.sh $(LIBRARY) $(if $(UPDATE),update)
+
+# ---- sanitizers ----
+
+SANITIZE_PACKAGES := gcc g++ valgrind
+
+# The C and C++ programs under each of them, after faults on purpose: SANITIZE=... runs some of address, undefined, thread,
+# memcheck and helgrind.
+sanitize: $(LIBRARY)
+	@.ci/packages $(SANITIZE_PACKAGES)
+	CC="$(CC)" CXX="$(CXX)" CARGO="$(CARGO)" tests/c/sanitize.sh $(SANITIZE)
 
 # ---- Debian packages ----
 
