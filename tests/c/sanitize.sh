@@ -4,8 +4,8 @@
 # sanitizer that is not linked, or a library that is not instrumented, finds nothing and proves nothing.
 #
 # There is no MemorySanitizer: it takes what code without its instrumentation has written for uninitialised, and Rust's standard library
-# comes without (rustc refuses to mix them). It was tried, and every program ended in its first call, over the result of
-# `std::env::var`. Memcheck needs no instrumentation and looks for the same.
+# comes without (rustc refuses to mix them). It was tried, and every program ended in its first call, over what a vector had answered
+# when asked for room. Memcheck needs no instrumentation and looks for the same.
 #
 # Run it at the root, after `make target/release/libumbilic.so`. It takes some ten minutes.
 set -eu
