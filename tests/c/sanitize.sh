@@ -90,15 +90,14 @@ thread() {
   instrument thread "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer"
   runtime=$(rustc --print sysroot)/lib/rustlib/$target/lib/librustc-stable_rt.tsan.a
   nm "$library" 2>/dev/null > "$built/symbols.txt" || true
+  [ -f "$runtime" ] || { echo "This Rust has no ThreadSanitizer: $runtime" >&2; exit 1; }
+  # What tsan_std.c stands in for, as far as the library uses it.
   lock=$(sed -n 's/^ *U \(.*Mutex14lock_contended.*\)$/\1/p' "$built/symbols.txt" | head -n 1)
   once=$(sed -n 's/^ *U \(.*4once5futex.*4Once4call.*\)$/\1/p' "$built/symbols.txt" | head -n 1)
-  if [ -z "$lock" ] || [ -z "$once" ] || [ ! -f "$runtime" ]; then
-    echo "Rust's mutex, its Once or its runtime for ThreadSanitizer are not where they were: see tsan_std.c." >&2
-    exit 1
-  fi
-  "${CC:-cc}" -std=c11 $flags -DLOCK_CONTENDED="$lock" -DONCE_CALL="$once" -c $here/tsan_std.c -o "$built/tsan_std.o"
+  # shellcheck disable=SC2086 # a list of words
+  "${CC:-cc}" -std=c11 $flags ${lock:+"-DLOCK_CONTENDED=$lock"} ${once:+"-DONCE_CALL=$once"} -c $here/tsan_std.c -o "$built/tsan_std.o"
   compile -fsanitize=thread \
-    "$built/tsan_std.o -Wl,--wrap=$lock -Wl,--wrap=$once -Wl,--whole-archive $runtime -Wl,--no-whole-archive"
+    "$built/tsan_std.o ${lock:+-Wl,--wrap=$lock} ${once:+-Wl,--wrap=$once} -Wl,--whole-archive $runtime -Wl,--no-whole-archive"
   export TSAN_OPTIONS=exitcode=99
   catches race count_up env
   catches library-race umbilic:: env
@@ -109,7 +108,7 @@ thread() {
 memcheck() {
   library=target/release/libumbilic.a
   compile "" ""
-  set -- valgrind --quiet --suppressions=$here/valgrind.supp --error-exitcode=99 \
+  set -- valgrind --quiet --error-exitcode=99 \
     --leak-check=full --errors-for-leak-kinds=definite,indirect,possible
   catches overflow "Invalid write" "$@"
   catches library-overflow umbilic:: "$@"
@@ -126,7 +125,7 @@ memcheck() {
 helgrind() {
   library=target/release/libumbilic.a
   compile "" ""
-  set -- valgrind --quiet --tool=helgrind --suppressions=$here/valgrind.supp --error-exitcode=99
+  set -- valgrind --quiet --tool=helgrind --error-exitcode=99
   catches race count_up "$@"
   catches library-race umbilic:: "$@"
   for program in "planted none" refusals old_header "threads 2 apart"; do
