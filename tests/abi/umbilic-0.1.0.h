@@ -11,8 +11,9 @@
  *
  * All functions may be called from any thread at any time, and a const handle may be used by many at once. There is no
  * global state but a hook of the library's own runtime, which keeps a caught defect (UMB_ERROR_INTERNAL) from being printed.
- * No signal is touched, no thread outlives the call that started it. A host that sets
- * the CPU to flush subnormal numbers to zero changes results below 1e-38 (float) and 1e-308 (double).
+ * No signal is touched, no thread outlives the call that started it; threads of the library's take none of the process's signals.
+ * Whatever floating-point state the host has set (subnormal numbers flushed to zero, another rounding mode, exceptions that trap), results
+ * have the same bits, and the host finds its state as it left it (x86 and 64-bit ARM). A progress callback runs in the host's state.
  *
  * This file is generated; see cbindgen.toml.
  */
