@@ -11,7 +11,7 @@ pub enum Error {
         /// The argument or field.
         what: &'static str,
     },
-    /// A struct's `struct_size` is smaller than the first published version of the struct.
+    /// A struct's `struct_size` is smaller than the first published version of the struct, or beyond 4096.
     StructSize {
         /// The struct.
         what: &'static str,
@@ -139,7 +139,7 @@ impl fmt::Display for Error {
         match *self {
             Error::NullPointer { what } => write!(out, "{what} is null"),
             Error::StructSize { what, size } => {
-                write!(out, "{what}.struct_size is {size}, less than the struct's first version")
+                write!(out, "{what}.struct_size is {size}, less than the struct's first version or beyond 4096")
             }
             Error::UnknownField { what, byte } => {
                 write!(

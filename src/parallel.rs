@@ -6,10 +6,8 @@
 
 use crate::error::Error;
 use crate::simd::Level;
-use crate::view::{core_count, with_helpers};
-use std::cell::Cell;
+use crate::view::{core_count, for_each_part, with_threads};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
-use std::sync::{Mutex, PoisonError};
 
 /// How a call is carried out. The default: all cores where that pays, the widest vectors, all vertices.
 pub struct Run<'a> {
@@ -70,21 +68,6 @@ const CHUNKS_A_THREAD: usize = 16;
 /// No call uses more threads than this, whatever it is asked for.
 const MOST_THREADS: usize = 256;
 
-thread_local! {
-    static QUIET: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Whether a panic on this thread will be caught at a door of the library, and need not be printed. Threads that a call
-/// starts inherit it.
-pub(crate) fn is_quiet() -> bool {
-    QUIET.get()
-}
-
-/// Sets [`is_quiet`]; answers with what it was.
-pub(crate) fn set_quiet(quiet: bool) -> bool {
-    QUIET.replace(quiet)
-}
-
 /// The chunks of a call, as one thread sees them.
 pub(crate) struct Claims<'a, 'p> {
     shared: &'a Shared,
@@ -123,21 +106,8 @@ pub(crate) fn thread_count(wanted: usize, chunks: usize) -> usize {
     if most <= 1 {
         return 1;
     }
-    most.min(if wanted == 0 { core_count() } else { MOST_THREADS })
-}
-
-/// Runs `other` on up to `threads - 1` threads, and `own` on this one. A panic of any of them goes on here.
-fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
-    if threads <= 1 {
-        return own();
-    }
-    let quiet = is_quiet();
-    let other = || {
-        set_quiet(quiet);
-        other();
-    };
-    // A system that has no more threads to give leaves the work to those there are.
-    with_helpers(threads - 1, &other, own);
+    let cores = if wanted == 0 { core_count() } else { MOST_THREADS };
+    most.min(cores).min(MOST_THREADS)
 }
 
 /// Has `work` done by as many threads as `run` asks for, until the `count` chunks are claimed.
@@ -168,19 +138,6 @@ pub(crate) fn for_each_chunk(
         progress(1.0);
     }
     Ok(())
-}
-
-/// Has `work` done on each of `parts` by up to `threads` threads.
-pub(crate) fn for_each_part<T: Send>(threads: usize, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
-    let parts = Mutex::new(parts);
-    let work = || {
-        loop {
-            let claimed = parts.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some(part) = claimed else { break };
-            work(part);
-        }
-    };
-    with_threads(threads, work, work);
 }
 
 /// Sets each element to `value(index)`, by as many threads as `threads` asks for (0: as many as pay).

@@ -89,15 +89,16 @@ fn a_callback_finds_the_hosts_state_and_may_change_it() {
         let plain = Setting::threads(1);
         let mut expected = Prepared::new(call, &fixture, &plain);
         expected.succeed();
-        let (host, next) = (0x9fc0u32, 0x5f80u32);
-        let mut user = ([0u32; 2], next);
-        let setting = Setting { progress: Some(progress), user: (&raw mut user).cast(), ..Setting::threads(2) };
-        let mut prepared = Prepared::new(call, &fixture, &setting);
-        set_state(host);
-        let status = prepared.call();
-        let after = state();
-        set_state(STANDARD);
-        assert_eq!((status, after, user.0), (UMB_OK, next, [host, next]), "{call:?}");
-        assert!(prepared.bits() == expected.bits(), "{call:?}");
+        for (host, next) in [(0x9fc0u32, 0x5f80u32), (0x0000, 0x0000), (0x0040, 0x9fc0)] {
+            let mut user = ([0u32; 2], next);
+            let setting = Setting { progress: Some(progress), user: (&raw mut user).cast(), ..Setting::threads(2) };
+            let mut prepared = Prepared::new(call, &fixture, &setting);
+            set_state(host);
+            let status = prepared.call();
+            let after = state();
+            set_state(STANDARD);
+            assert_eq!((status, after, user.0), (UMB_OK, next, [host, next]), "{call:?}");
+            assert!(prepared.bits() == expected.bits(), "{call:?}");
+        }
     }
 }

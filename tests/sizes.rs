@@ -12,7 +12,7 @@ use umbilic::capi::*;
 /// Address space that ends the process when it is read or written.
 struct Forbidden(*mut libc::c_void);
 
-const ROOM: usize = 1 << 40;
+const ROOM: usize = 1 << 30;
 
 impl Forbidden {
     fn new() -> Self {

@@ -2,8 +2,8 @@
 
 use super::status::{Failure, UMB_OK, umb_error, umb_status};
 use crate::error::Error;
-use crate::parallel::{is_quiet, set_quiet};
 use crate::simd::Environment;
+use crate::view::{is_quiet, set_quiet};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::{Once, OnceLock};

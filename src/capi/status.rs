@@ -52,7 +52,7 @@ pub const UMB_NO_ELEMENT: u64 = u64::MAX;
 #[derive(Clone, Copy)]
 pub struct umb_error {
     /// `sizeof(umb_error)`, set by the caller; 0 stands for the size of its first version. If it is smaller than that,
-    /// nothing is written here.
+    /// nothing is written here; what a longer one has beyond the library's fields is left alone.
     pub struct_size: u32,
     /// The status that the call returned.
     pub status: umb_status,
@@ -117,7 +117,7 @@ impl Failure {
         }
         // SAFETY: at least the size field is there.
         let size = unsafe { (&raw const (*error).struct_size).read_unaligned() } as usize;
-        if size != 0 && size < size_of::<umb_error>() {
+        if size != 0 && size < FIRST_ERROR_SIZE {
             return;
         }
         let mut message = Message { bytes: [0; 240], length: 0 };
@@ -141,6 +141,11 @@ fn panic_text(payload: &(dyn std::any::Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no description")
 }
+
+/// The size of the first version of [`umb_error`], whose fields are those that [`Failure::report`] writes.
+const FIRST_ERROR_SIZE: usize = 256;
+const _: () =
+    assert!(size_of::<umb_error>() == FIRST_ERROR_SIZE, "a field beyond the first version is written by size");
 
 /// A C string of fixed size, written without allocating.
 struct Message {

@@ -275,6 +275,8 @@ impl umb_run {
     pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
         let (progress, user) = (self.progress?, self.user);
         Some(move |fraction| {
+            // Computed by now, in the library's floating-point environment.
+            let fraction = std::hint::black_box(fraction);
             // SAFETY: the caller gave both for this purpose.
             outside(|| unsafe { progress(user, fraction) }) == 0
         })

@@ -120,10 +120,6 @@ fn each_vertex<S: Coordinate, const N: usize>(
                     None if !closed => status |= polyline_status::END,
                     _ => (),
                 }
-                // Where the host flushes subnormal differences to zero.
-                if corner.as_ref().is_some_and(|corner| corner.points.coincident > 0.0) {
-                    status |= polyline_status::COINCIDENT;
-                }
                 for (section, _, output) in outputs.curvatures() {
                     if let Some(output) = output {
                         output

@@ -103,9 +103,9 @@ pub(crate) fn learn(
     if samples.vertices.is_empty() {
         return Ok(unknown);
     }
-    let mut best = Err(Error::OutOfMemory);
+    let mut best = None;
     dispatch(run.level, Choose { samples: &samples, best: &mut best });
-    let best = best?;
+    let Some(best) = best.transpose()? else { return Ok(unknown) };
     let Trial { noise_squared, sizes, coordinates, noise_exponent, size_exponent } = best.trial;
     let model = AdaptiveModel {
         edge_length,
@@ -174,13 +174,13 @@ struct Learned {
 /// Chooses the best model for samples.
 struct Choose<'a> {
     samples: &'a Samples,
-    best: &'a mut Result<Learned, Error>,
+    best: &'a mut Option<Result<Learned, Error>>,
 }
 
 impl Task for Choose<'_> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        *self.best = Sampled::<W>::new(self.samples).map(|mut sampled| choose_model(&mut sampled));
+        *self.best = Some(Sampled::<W>::new(self.samples).map(|mut sampled| choose_model(&mut sampled)));
     }
 }
 
@@ -211,7 +211,7 @@ struct Sampled<'a, W: Width> {
 impl<'a, W: Width> Sampled<'a, W> {
     fn new(all: &'a Samples) -> Result<Self, Error> {
         let samples = &all.vertices[..];
-        let rows = samples.chunks(W::Double::LANES).map(|block| most_points(block)).sum::<usize>();
+        let rows = samples.chunks(W::Double::LANES).map(most_points).sum::<usize>();
         let mut sampled = Sampled {
             samples,
             blocks: reserved(samples.len().div_ceil(W::Double::LANES))?,

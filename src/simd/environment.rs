@@ -4,7 +4,8 @@
 //! rounding mode behind, debuggers unmask exceptions. Rust code may count on the environment that a process starts with, and so
 //! do the promises of this library about bits.
 
-/// A thread's control register: MXCSR on x86, FPCR on 64-bit ARM. On other CPUs nothing is read or changed.
+/// A thread's control and status registers: MXCSR on x86 with SSE, FPCR and (in the upper half) FPSR on 64-bit ARM. On other CPUs nothing is
+/// read or changed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Environment(Register);
 
@@ -34,10 +35,12 @@ impl Environment {
         }
         #[cfg(target_arch = "aarch64")]
         {
-            let register: u64;
-            // SAFETY: reads a register that every program may read.
-            unsafe { std::arch::asm!("mrs {}, fpcr", out(reg) register, options(nomem, nostack, preserves_flags)) };
-            Environment(register)
+            let (control, status): (u64, u64);
+            // SAFETY: reads registers that every program may read.
+            unsafe {
+                std::arch::asm!("mrs {}, fpcr", "mrs {}, fpsr", out(reg) control, out(reg) status, options(nostack));
+            }
+            Environment(control | status << 32)
         }
         #[cfg(not(any(
             all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse"),
@@ -56,12 +59,13 @@ impl Environment {
         #[cfg(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse"))]
         // SAFETY: the value was read from the register, or is the standard one, so it has no reserved bit.
         unsafe {
-            std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const self.0, options(nostack, preserves_flags));
+            std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const self.0, options(nostack));
         }
         #[cfg(target_arch = "aarch64")]
         // SAFETY: as above.
         unsafe {
-            std::arch::asm!("msr fpcr, {}", in(reg) self.0, options(nostack, preserves_flags));
+            let (control, status) = (self.0 & 0xffff_ffff, self.0 >> 32);
+            std::arch::asm!("msr fpcr, {}", "msr fpsr, {}", in(reg) control, in(reg) status, options(nostack));
         }
     }
 }

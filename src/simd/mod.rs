@@ -14,9 +14,9 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use std::ffi::CStr;
-use std::ptr::NonNull;
 use std::sync::OnceLock;
+#[cfg(unix)]
+use std::{ffi::CStr, ptr::NonNull};
 
 pub(crate) use environment::Environment;
 pub(crate) use math::{atan2_and_reciprocal, tangent_parts};
@@ -52,10 +52,13 @@ impl Level {
             // Not by the standard library, which allocates.
             // SAFETY: a string of the C library's that ends with a NUL; a host that changes its environment meanwhile races with every
             // reader of it, as it knows.
-            let name = unsafe {
-                NonNull::new(libc::getenv(c"UMBILIC_SIMD".as_ptr())).map(|name| CStr::from_ptr(name.as_ptr()))
+            #[cfg(unix)]
+            let cap = unsafe {
+                let name = NonNull::new(libc::getenv(c"UMBILIC_SIMD".as_ptr()));
+                name.and_then(|name| Level::named(CStr::from_ptr(name.as_ptr()).to_str().ok()?))
             };
-            let cap = name.and_then(|name| Level::named(name.to_str().ok()?));
+            #[cfg(not(unix))]
+            let cap = std::env::var("UMBILIC_SIMD").ok().and_then(|name| Level::named(&name));
             cap.map_or(Level::detected(), |cap| cap.min(Level::detected()))
         })
     }

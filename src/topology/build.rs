@@ -15,9 +15,11 @@ use super::order::Order;
 use super::polygons::Polygons;
 use super::stats::Defects;
 use crate::error::{Error, reserved};
-use crate::parallel::{for_each_part, thread_count};
+use crate::parallel::thread_count;
 use crate::simd::Level;
-use crate::view::{BLOCK, Faces, RingPart, RingTable, Rings, SLOTS, Slots, SlotsPart, WINDOW, with_indices, zeroed};
+use crate::view::{
+    BLOCK, Faces, RingPart, RingTable, Rings, SLOTS, Slots, SlotsPart, WINDOW, for_each_part, with_indices, zeroed,
+};
 
 /// Builds the topology of faces whose corners are fewer than 2³¹.
 pub(super) fn build(faces: &Faces<'_>, vertex_count: usize, threads: usize, level: Level) -> Result<Topology, Error> {

@@ -28,7 +28,7 @@ pub use polyline::PolylinePoints;
 pub(crate) use ring_table::{RingPart, RingTable};
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
 pub(crate) use slots::{BLOCK, Put, SLOTS, Slots, SlotsPart};
-pub(crate) use threads::with_helpers;
+pub(crate) use threads::{for_each_part, is_quiet, set_quiet, with_threads};
 
 use crate::error::Error;
 

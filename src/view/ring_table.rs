@@ -5,8 +5,8 @@
 
 use super::memory::{room, zeroed};
 use super::rings::{CLASSES, RingClass, Rings, Slice, WINDOW, bucket};
+use super::threads::for_each_part;
 use crate::error::{Error, reserved};
-use crate::parallel::for_each_part;
 
 /// The table.
 pub(crate) struct RingTable {

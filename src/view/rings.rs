@@ -306,6 +306,7 @@ impl Rings {
         let edges = &mut edges[..corners + 1];
         let mut centres = [vertices[0]; MAX_LANES];
         // Lane by lane: a copy of unknown length is a call, which forgets what stands in vector registers.
+        #[expect(clippy::needless_range_loop)]
         for lane in 0..V::LANES {
             if let Some(&vertex) = vertices.get(lane) {
                 centres[lane] = vertex;

@@ -4,8 +4,51 @@
 //! not; so on Unix these are the system's own, started without an allocation of ours.
 
 use std::any::Any;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Mutex, PoisonError};
+
+thread_local! {
+    static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic on this thread will be caught at a door of the library, and need not be printed. Threads that a call
+/// starts inherit it.
+pub(crate) fn is_quiet() -> bool {
+    QUIET.get()
+}
+
+/// Sets [`is_quiet`]; answers with what it was.
+pub(crate) fn set_quiet(quiet: bool) -> bool {
+    QUIET.replace(quiet)
+}
+
+/// Runs `other` on up to `threads - 1` threads, and `own` on this one. A panic of any of them goes on here.
+pub(crate) fn with_threads(threads: usize, other: impl Fn() + Sync, own: impl FnOnce()) {
+    if threads <= 1 {
+        return own();
+    }
+    let quiet = is_quiet();
+    let other = || {
+        set_quiet(quiet);
+        other();
+    };
+    // A system that has no more threads to give leaves the work to those there are.
+    with_helpers(threads - 1, &other, own);
+}
+
+/// Has `work` done on each of `parts` by up to `threads` threads.
+pub(crate) fn for_each_part<T: Send>(threads: usize, parts: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
+    let parts = Mutex::new(parts);
+    let work = || {
+        loop {
+            let claimed = parts.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some(part) = claimed else { break };
+            work(part);
+        }
+    };
+    with_threads(threads, work, work);
+}
 
 /// What the threads do, and the first panic of any of them.
 struct Job<'a> {
@@ -23,7 +66,7 @@ impl Job<'_> {
 
 /// Runs `work` on up to `count` threads besides this one, and `own` on this one; as many start as the system has to give. All
 /// have ended when this returns. A panic of any of them goes on here.
-pub(crate) fn with_helpers(count: usize, work: &(dyn Fn() + Sync), own: impl FnOnce()) {
+fn with_helpers(count: usize, work: &(dyn Fn() + Sync), own: impl FnOnce()) {
     let job = Job { work, panic: Mutex::new(None) };
     run_beside(&job, count, own);
     if let Some(payload) = job.panic.into_inner().unwrap_or_else(PoisonError::into_inner) {
@@ -84,8 +127,8 @@ mod unix {
             Helpers { threads: [const { MaybeUninit::uninit() }; MOST], count: 0 }
         }
 
-        /// Starts up to `count` threads. They take no signal that is meant for the process: a host's handlers run on the host's
-        /// own threads.
+        /// Starts up to `count` threads. They take no signal that is meant for the process, but those that faults raise: a host's
+        /// handlers run on the host's own threads.
         ///
         /// # Safety
         /// The job must live until `self` has been dropped.
@@ -100,11 +143,12 @@ mod unix {
                 libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
                 let (mut blocked, mut before) = (MaybeUninit::uninit(), MaybeUninit::uninit());
                 libc::sigfillset(blocked.as_mut_ptr());
-                // What a thread's own instructions raise would end the process without a word if it were blocked.
-                for fault in [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGABRT] {
+                // What a thread's own instructions raise (and a sandbox, where it emulates system calls) would end the process
+                // without a word if it were blocked.
+                for fault in [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGSYS] {
                     libc::sigdelset(blocked.as_mut_ptr(), fault);
                 }
-                if libc::pthread_sigmask(libc::SIG_SETMASK, blocked.as_ptr(), before.as_mut_ptr()) == 0 {
+                if libc::pthread_sigmask(libc::SIG_BLOCK, blocked.as_ptr(), before.as_mut_ptr()) == 0 {
                     for thread in self.threads.iter_mut().take(count) {
                         if libc::pthread_create(thread.as_mut_ptr(), attributes.as_ptr(), run, job) != 0 {
                             break;

@@ -11,9 +11,9 @@
  *
  * All functions may be called from any thread at any time, and a const handle may be used by many at once. There is no
  * global state but a hook of the library's own runtime, which keeps a caught defect (UMB_ERROR_INTERNAL) from being printed.
- * No signal is touched, no thread outlives the call that started it; threads of the library's take none of the process's signals.
+ * No signal is touched, no thread outlives the call that started it; threads of the library's take none of the process's signals but those of faults.
  * Whatever floating-point state the host has set (subnormal numbers flushed to zero, another rounding mode, exceptions that trap), results
- * have the same bits, and the host finds its state as it left it (x86 and 64-bit ARM). A progress callback runs in the host's state.
+ * have the same bits, and the host finds its state as it left it (x86 with SSE, 64-bit ARM). A progress callback runs in the host's state.
  *
  * This file is generated; see cbindgen.toml.
  */
@@ -224,7 +224,7 @@ typedef struct umb_topology_options {
 typedef struct umb_error {
   /**
    * `sizeof(umb_error)`, set by the caller; 0 stands for the size of its first version. If it is smaller than that,
-   * nothing is written here.
+   * nothing is written here; what a longer one has beyond the library's fields is left alone.
    */
   uint32_t struct_size;
   /**

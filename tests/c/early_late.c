@@ -13,7 +13,7 @@ static int places;
 
 /* The same work everywhere, on a mesh of its own since not even main's data are there everywhere. */
 static void use(const char *place) {
-  struct mesh mesh = torus(24, 18);
+  struct mesh mesh = torus(70, 31);
   uint64_t found = all_work(&library, &mesh, 3);
   mesh_free(&mesh);
   CHECK(expected == 0 || found == expected);

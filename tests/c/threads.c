@@ -62,7 +62,7 @@ static void race(const struct mesh *mesh, const umb_topology *topology, uint32_t
 
 int main(int count, char **arguments) {
   uint32_t rounds = count > 1 ? (uint32_t)strtoul(arguments[1], NULL, 10) : 16;
-  struct mesh meshes[] = {sphere(2, 24, 16), torus(24, 18), broken()};
+  struct mesh meshes[] = {sphere(2, 24, 16), torus(24, 18), broken(), torus(70, 31)};
   CHECK(rounds <= MOST_ROUNDS);
   apart = count > 2 && strcmp(arguments[2], "apart") == 0;
   if (apart) work(&library, NULL, &meshes[0], WITHOUT_HANDLE, 1);

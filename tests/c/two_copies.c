@@ -39,7 +39,7 @@ int main(int count, char **arguments) {
   static struct copy copies[MOST_COPIES];
   size_t copy_count = (size_t)count;
   CHECK(count > 1 && count <= MOST_COPIES);
-  mesh = torus(24, 18);
+  mesh = torus(70, 31);
   copies[0].library = linked;
   for (size_t i = 1; i < copy_count; i++) {
     void *handle = dlopen(arguments[i], RTLD_NOW | RTLD_LOCAL);
