@@ -16,6 +16,11 @@ fn meshes() -> Vec<Mesh> {
         mesh::soup(30, 60, 3, 9),
         mesh::soup(30, 40, 6, 8),
         mesh::fan(20, true, 2),
+        // The largest that are computed in lanes, and the next: 16 and 17 corners.
+        mesh::fan(16, true, 3),
+        mesh::fan(17, false, 3),
+        mesh::fan(17, true, 3),
+        mesh::fan(18, false, 3),
     ]
 }
 

@@ -214,12 +214,12 @@ impl Topology {
         &self.fans[first..first + count]
     }
 
-    /// How many edges at most a vertex has, the first of a closed fan counted twice.
+    /// How many edges a vertex has, the first of a closed fan counted twice.
     pub(crate) fn edges_alone(&self, vertex: usize) -> usize {
-        self.ring(vertex).len() + self.fan_count(vertex)
+        self.ring(vertex).len() + self.fans(vertex).filter(|fan| fan.closed).count()
     }
 
-    /// The most [`Topology::edges_alone`] of the vertices of [`RingClass::Alone`].
+    /// No less than [`Topology::edges_alone`] of any vertex of [`RingClass::Alone`].
     pub(crate) fn largest_alone(&self) -> usize {
         self.largest_alone
     }
