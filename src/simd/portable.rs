@@ -1,6 +1,6 @@
 //! The array back-end: lanes as a plain Rust array, for CPUs that have no back-end of their own.
 
-use super::vector::{MAX_LANES, Mask, Real, Vector, Vector3, each};
+use super::vector::{self, MAX_LANES, Mask, Real, Vector, Vector3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `N` lanes of `S`.
@@ -10,6 +10,14 @@ pub(crate) struct Lanes<S, const N: usize>([S; N]);
 /// `N` answers.
 #[derive(Clone, Copy)]
 pub(crate) struct Answers<const N: usize>([bool; N]);
+
+/// As [`vector::each`]. Under a fuzzer, whose checks stay in every loop, a function of its own: the compiler takes half an hour for
+/// kernels with thousands of them.
+#[cfg_attr(not(fuzzing), inline(always))]
+#[cfg_attr(fuzzing, inline(never))]
+fn each<T: Copy, const N: usize>(start: T, value: impl FnMut(usize) -> T) -> [T; N] {
+    vector::each(start, value)
+}
 
 impl<const N: usize> Mask for Answers<N> {
     #[inline(always)]

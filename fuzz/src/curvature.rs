@@ -1,0 +1,240 @@
+//! Outputs of curvatures: which a method has, and what must hold of them.
+
+use crate::arrays::{Bytes, Target};
+use crate::source::Source;
+use umbilic::capi::*;
+
+/// A method; those of one ring more often than the dear ones.
+pub fn method(source: &mut Source<'_>) -> umb_curvature_method {
+    if source.spoils() {
+        return source.any_u32();
+    }
+    match source.byte() {
+        byte @ 0..208 => source_method(byte),
+        208..240 => source.pick(&[UMB_CURVATURE_JET, UMB_CURVATURE_QUADRIC, UMB_CURVATURE_GOLDFEATHER]),
+        _ => UMB_CURVATURE_ADAPTIVE_JET,
+    }
+}
+
+fn source_method(byte: u8) -> umb_curvature_method {
+    UMB_CURVATURE_TILTED_SECTIONS + byte as u32 % 9
+}
+
+/// The outputs, in the header's order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Out {
+    K1,
+    K2,
+    Direction1,
+    Direction2,
+    Mean,
+    Gaussian,
+    MeanNormal,
+    Area,
+    IntegratedMean,
+    IntegratedGaussian,
+    ShapeIndex,
+    Curvedness,
+    Residual,
+    Condition,
+    DegreesOfFreedom,
+    Normal,
+}
+use Out::*;
+
+const OUTPUTS: [Out; 16] = [
+    K1,
+    K2,
+    Direction1,
+    Direction2,
+    Mean,
+    Gaussian,
+    MeanNormal,
+    Area,
+    IntegratedMean,
+    IntegratedGaussian,
+    ShapeIndex,
+    Curvedness,
+    Residual,
+    Condition,
+    DegreesOfFreedom,
+    Normal,
+];
+
+impl Out {
+    fn components(self) -> usize {
+        if matches!(self, Direction1 | Direction2 | MeanNormal | Normal) { 3 } else { 1 }
+    }
+
+    fn field(self, outputs: &mut umb_curvature_outputs) -> &mut umb_output {
+        match self {
+            K1 => &mut outputs.k1,
+            K2 => &mut outputs.k2,
+            Direction1 => &mut outputs.direction1,
+            Direction2 => &mut outputs.direction2,
+            Mean => &mut outputs.mean,
+            Gaussian => &mut outputs.gaussian,
+            MeanNormal => &mut outputs.mean_normal,
+            Area => &mut outputs.area,
+            IntegratedMean => &mut outputs.integrated_mean,
+            IntegratedGaussian => &mut outputs.integrated_gaussian,
+            ShapeIndex => &mut outputs.shape_index,
+            Curvedness => &mut outputs.curvedness,
+            Residual => &mut outputs.residual,
+            Condition => &mut outputs.condition,
+            DegreesOfFreedom => &mut outputs.degrees_of_freedom,
+            Normal => &mut outputs.normal,
+        }
+    }
+
+    /// The header's table.
+    pub fn is_of(self, method: umb_curvature_method) -> bool {
+        let fit = [UMB_CURVATURE_JET, UMB_CURVATURE_QUADRIC, UMB_CURVATURE_GOLDFEATHER].contains(&method);
+        let adaptive = method == UMB_CURVATURE_ADAPTIVE_JET;
+        let defect = method == UMB_CURVATURE_ANGLE_DEFECT;
+        let (meyer, cycle) = (method == UMB_CURVATURE_MEYER, method == UMB_CURVATURE_NORMAL_CYCLE);
+        let corrected = method == UMB_CURVATURE_CORRECTED_MEASURE;
+        match self {
+            K1 | K2 | ShapeIndex | Curvedness | Mean | MeanNormal => !defect,
+            Direction1 | Direction2 => !defect && !meyer && method != UMB_CURVATURE_WATANABE,
+            Gaussian | Normal => true,
+            Area => meyer || defect || cycle || corrected,
+            IntegratedMean => meyer || cycle || corrected,
+            IntegratedGaussian => meyer || defect || corrected,
+            Residual => fit || adaptive || method == UMB_CURVATURE_LEAST_SQUARES,
+            Condition => fit,
+            DegreesOfFreedom => adaptive,
+        }
+    }
+}
+
+/// Few outputs more often than many.
+fn is_wanted(wanted: u16, output: Out) -> bool {
+    wanted.rotate_left(output as u32 * 5) & 3 == 0
+}
+
+/// Arrays for some of the outputs.
+pub struct Outputs {
+    targets: [Target; 16],
+    status: Bytes,
+}
+
+impl Outputs {
+    /// Outputs that the method has, unless the input is hostile.
+    pub fn new(source: &mut Source<'_>, method: umb_curvature_method, count: usize, double: bool) -> Outputs {
+        let (wanted, mixed): (u16, bool) = (source.number(), source.byte() >= 192);
+        let targets = OUTPUTS.map(|output| {
+            let has = output.is_of(method) || source.spoils();
+            if !has || !is_wanted(wanted, output) {
+                return Target::none(source);
+            }
+            let double = if mixed { source.half() } else { double };
+            Target::new(source, output.components(), count, double)
+        });
+        let status = source.half();
+        Outputs { targets, status: Bytes::new(source, count, status) }
+    }
+
+    /// Outputs that the method has, chosen by one source and laid out by another.
+    pub fn laid_out(
+        choice: &mut Source<'_>,
+        layout: &mut Source<'_>,
+        method: umb_curvature_method,
+        count: usize,
+        double: bool,
+    ) -> Outputs {
+        let (wanted, mixed): (u16, bool) = (choice.number(), choice.byte() >= 192);
+        let targets = OUTPUTS.map(|output| {
+            let double = if mixed { choice.half() } else { double };
+            if !output.is_of(method) || !is_wanted(wanted, output) {
+                return Target::none(layout);
+            }
+            Target::new(layout, output.components(), count, double)
+        });
+        Outputs { targets, status: Bytes::new(layout, count, true) }
+    }
+
+    pub fn targets(&self) -> impl Iterator<Item = &Target> {
+        self.targets.iter()
+    }
+
+    pub fn status(&self) -> &Bytes {
+        &self.status
+    }
+
+    pub fn view(&self) -> umb_curvature_outputs {
+        let mut outputs = crate::structs::zeroed();
+        for (output, target) in OUTPUTS.into_iter().zip(&self.targets) {
+            *output.field(&mut outputs) = target.view();
+        }
+        outputs.status = self.status.view();
+        outputs
+    }
+
+    pub fn are_untouched(&self) -> bool {
+        self.targets.iter().all(Target::is_untouched) && self.status.is_untouched()
+    }
+
+    pub fn check_gaps(&self, may: impl Fn(usize) -> bool) {
+        for (output, target) in OUTPUTS.into_iter().zip(&self.targets) {
+            if target.is_wanted() {
+                target.check_gaps(&may, &format!("{output:?}"));
+            }
+        }
+        self.status.check_gaps(&may, "status");
+    }
+
+    fn of(&self, output: Out) -> Option<&Target> {
+        Some(&self.targets[output as usize]).filter(|target| target.is_wanted())
+    }
+
+    /// Checks the results at a vertex with these flags.
+    pub fn check(&self, vertex: usize, flags: u8) {
+        let status = self.status.element(vertex);
+        let none = status.is_some_and(|status| status & (UMB_VERTEX_ISOLATED | UMB_VERTEX_DEGENERATE) != 0);
+        for output in OUTPUTS {
+            let Some(target) = self.of(output) else { continue };
+            let value = target.finite(vertex, NAMES[output as usize]);
+            match output {
+                Direction1 | Direction2 | Normal => {
+                    target.unit(vertex, NAMES[output as usize]);
+                }
+                Area | Curvedness | Residual | Condition | DegreesOfFreedom => {
+                    assert!(value[0] >= 0.0, "{output:?} of vertex {vertex} is {}", value[0]);
+                }
+                ShapeIndex => assert!(value[0].abs() <= 1.0, "shape index {}", value[0]),
+                _ => {}
+            }
+            let zero = value == [0.0; 3] || output == Normal;
+            assert!(!none || zero, "{output:?} of vertex {vertex} with status {status:?} is {value:?}");
+        }
+        if let (Some(k1), Some(k2)) = (self.of(K1), self.of(K2))
+            && k1.is_double() == k2.is_double()
+        {
+            let (larger, smaller) = (k1.element(vertex)[0], k2.element(vertex)[0]);
+            assert!(larger >= smaller, "vertex {vertex}: k1 {larger} is below k2 {smaller}");
+        }
+        if let Some(status) = status {
+            assert_eq!(status & 15, flags, "status {status} of vertex {vertex}");
+        }
+    }
+}
+
+const NAMES: [&str; 16] = [
+    "k1",
+    "k2",
+    "direction1",
+    "direction2",
+    "mean",
+    "gaussian",
+    "mean_normal",
+    "area",
+    "integrated_mean",
+    "integrated_gaussian",
+    "shape_index",
+    "curvedness",
+    "residual",
+    "condition",
+    "degrees_of_freedom",
+    "normal",
+];
