@@ -7,6 +7,8 @@ CXX ?= c++
 MESH ?=
 BENCH ?=
 SANITIZE ?=
+SECONDS ?= 60
+TARGETS ?= topology normals curvature polyline readers differential
 
 LIBRARY := target/release/libumbilic.so
 # Where real meshes are found or fetched to; every mesh test reads them from there.
@@ -16,8 +18,8 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint abi sanitize bench bench-programs bench-instructions accuracy \
-  paper pictures header packages clean FORCE
+.PHONY: help demo test test-rust test-c test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
+  bench-instructions accuracy paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
@@ -29,6 +31,7 @@ help:
 	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README; scans by umbilic, libigl and VCG: docs/scans.md"
+	@echo "make fuzz [SECONDS=60]    hostile input, so long for each target [TARGETS=\"normals readers\"]: target/fuzz/summary.txt"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
@@ -215,6 +218,26 @@ pictures: $(LIBRARY) $(MESHES) $(VENV)/scans
 $(VENV)/scans: benches/scans/requirements.txt $(VENV)/done
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/scans/requirements.txt
 	touch $@
+
+# ---- fuzzing ----
+
+FUZZ := target/fuzz
+# Much as cargo-fuzz has it, but with any toolchain, and so that the kernels compile in minutes: comparisons are not traced, since
+# there are few magic numbers to find; the standard library does not check its own unsafe code in every loop; and what lies on the
+# stack is left unguarded, since what callers hand in lies in the heap.
+FUZZ_FLAGS := -Zsanitizer=address --cfg fuzzing -Zub-checks=no -Cpasses=sancov-module \
+  $(addprefix -Cllvm-args=-,sanitizer-coverage-level=2 sanitizer-coverage-inline-8bit-counters \
+  sanitizer-coverage-pc-table asan-stack=0 asan-use-after-scope=0)
+HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+
+fuzz: fuzz-build
+	$(FUZZ)/build/$(HOST)/release/examples/seeds fuzz/corpus
+	fuzz/run.sh $(SECONDS) $(FUZZ)/build/$(HOST)/release fuzz/corpus $(FUZZ) $(TARGETS)
+
+fuzz-build:
+	@.ci/packages gcc g++
+	RUSTC_BOOTSTRAP=1 RUSTFLAGS="$(FUZZ_FLAGS)" $(CARGO) build --manifest-path fuzz/Cargo.toml --locked --release \
+	  --target $(HOST) --target-dir $(FUZZ)/build --bins --examples
 
 header:
 	UPDATE_HEADER=1 $(CARGO) test --test header

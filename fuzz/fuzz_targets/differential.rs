@@ -14,7 +14,7 @@ use umbilic::capi::*;
 use umbilic_fuzz::coordinates::rows;
 use umbilic_fuzz::curvature::{Outputs, method};
 use umbilic_fuzz::weights::{small, weight};
-use umbilic_fuzz::{Bytes, FaceArrays, Input, Shape, Source, Target, zeroed};
+use umbilic_fuzz::{Bytes, FaceArrays, Input, Shape, Source, Target, run, zeroed};
 
 /// What is computed.
 enum Task {
@@ -112,7 +112,7 @@ fn case(source: &mut Source<'_>) -> Case {
     let double = source.half();
     let mut shape = Shape::new(source);
     let mut rows = rows(source, &shape.positions, shape.vertex_count, double);
-    if source.rarely() && source.rarely() && shape.vertex_count > 8 {
+    if source.may_be_slow(4 * run::SLOW) && shape.vertex_count > 8 {
         repeat(&mut shape, &mut rows);
     }
     if !double {
@@ -150,7 +150,7 @@ fn case(source: &mut Source<'_>) -> Case {
 /// The mesh so many times that threads share the work, each time a little larger.
 fn repeat(shape: &mut Shape, rows: &mut Vec<[f64; 3]>) {
     let (vertices, corners, faces) = (shape.vertex_count, shape.indices.len(), shape.face_count());
-    for copy in 1..=5000 / vertices {
+    for copy in 1..=2600 / vertices {
         for vertex in 0..vertices {
             rows.push(rows[vertex].map(|x| x * 0.9f64.powi(copy as i32 % 7)));
         }

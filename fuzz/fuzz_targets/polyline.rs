@@ -6,7 +6,7 @@
 use libfuzzer_sys::fuzz_target;
 use umbilic::capi::*;
 use umbilic_fuzz::coordinates::rows;
-use umbilic_fuzz::{Bytes, Input, Outcome, Placed, Run, Source, Struct, Target, Watch, zeroed};
+use umbilic_fuzz::{Bytes, Input, Outcome, Placed, Run, Source, Struct, Target, Watch, run, zeroed};
 
 const ALLOWED: [umb_status; 10] = [
     UMB_ERROR_NULL_POINTER,
@@ -23,7 +23,7 @@ const ALLOWED: [umb_status; 10] = [
 
 fuzz_target!(|data: &[u8]| {
     let source = &mut Source::new(data);
-    let count = if source.rarely() { source.below(9000) } else { source.below(24) };
+    let count = if source.may_be_slow(run::SLOW) { source.below(9000) } else { source.below(24) };
     let natural: Vec<[f64; 3]> = natural(source, count);
     let double = source.half();
     let rows = rows(source, &natural, count, double);

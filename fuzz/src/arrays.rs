@@ -74,7 +74,7 @@ impl Input {
         let mut block = Block::new(layout.size);
         let mut finite = true;
         for (index, row) in rows.iter().take(count).enumerate() {
-            let place = layout.start + index.wrapping_mul(layout.step);
+            let place = layout.start.wrapping_add(index.wrapping_mul(layout.step));
             let Some(bytes) = block.bytes_mut().get_mut(place..place.wrapping_add(layout.element)) else { break };
             for (axis, bytes) in bytes.chunks_exact_mut(scalar).enumerate() {
                 let value = row[axis];
@@ -203,9 +203,9 @@ impl Target {
         let scalar = if self.double { 8 } else { 4 };
         for (axis, bytes) in bytes.chunks_exact(scalar).enumerate().take(self.components) {
             assert!(bytes.iter().any(|&byte| byte != CANARY), "element {index} was not written");
-            element[axis] = match bytes.as_array::<8>() {
-                Some(&bytes) => f64::from_ne_bytes(bytes),
-                None => f32::from_ne_bytes(bytes.try_into().expect("four bytes")).into(),
+            element[axis] = match bytes.try_into() {
+                Ok(bytes) => f64::from_ne_bytes(bytes),
+                Err(_) => f32::from_ne_bytes(bytes.try_into().expect("four bytes")).into(),
             };
         }
         element

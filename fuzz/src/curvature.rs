@@ -11,7 +11,9 @@ pub fn method(source: &mut Source<'_>) -> umb_curvature_method {
     }
     match source.byte() {
         byte @ 0..208 => source_method(byte),
+        byte if !source.may_be_slow(4) => source_method(byte),
         208..240 => source.pick(&[UMB_CURVATURE_JET, UMB_CURVATURE_QUADRIC, UMB_CURVATURE_GOLDFEATHER]),
+        byte if !source.may_be_slow(32) => source_method(byte),
         _ => UMB_CURVATURE_ADAPTIVE_JET,
     }
 }

@@ -104,13 +104,17 @@ impl Run {
 /// One thread mostly, since starting others is slow.
 pub fn threads(source: &mut Source<'_>) -> u32 {
     match source.byte() {
-        0..240 => 1,
-        240..248 => 0,
+        0..224 => 1,
+        224..248 => 0,
+        _ if !source.may_be_slow(SLOW) => 1,
         248..252 => 2,
         252..254 => 3,
         _ => source.any_u32(),
     }
 }
+
+/// One in so many inputs may have a large mesh, and several threads.
+pub const SLOW: u32 = 128;
 
 pub fn simd(source: &mut Source<'_>) -> umb_simd {
     source.below(5) as umb_simd

@@ -17,7 +17,10 @@ pub struct Shape {
 impl Shape {
     /// A shape with some faults.
     pub fn new(source: &mut Source<'_>) -> Shape {
-        let mut shape = Shape { offsets: vec![0], ..Shape::default() };
+        // Room for most, so that arrays hardly ever grow.
+        let (positions, indices) = (Vec::with_capacity(40), Vec::with_capacity(160));
+        let mut shape = Shape { vertex_count: 0, offsets: Vec::with_capacity(64), indices, positions };
+        shape.offsets.push(0);
         match source.below(12) {
             0 => shape.random_faces(source, 3..=3),
             1 => shape.random_faces(source, 0..=7),

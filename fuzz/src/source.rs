@@ -6,6 +6,8 @@ use arbitrary::{Arbitrary, Unstructured};
 pub struct Source<'a> {
     bytes: Unstructured<'a>,
     hostile: bool,
+    /// Of all bytes.
+    hash: u32,
 }
 
 /// Counts that no memory holds: whatever has so many elements must be refused before it is read.
@@ -14,7 +16,8 @@ pub const IMPOSSIBLE_COUNTS: [usize; 4] = [usize::MAX, usize::MAX - 1, isize::MA
 impl<'a> Source<'a> {
     /// The first byte says whether the input is hostile. One that is not must be accepted by every call.
     pub fn new(data: &'a [u8]) -> Self {
-        let mut source = Source { bytes: Unstructured::new(data), hostile: false };
+        let hash = data.iter().fold(0x811c_9dc5, |hash: u32, &byte| (hash ^ byte as u32).wrapping_mul(0x0100_0193));
+        let mut source = Source { bytes: Unstructured::new(data), hostile: false, hash: hash ^ hash >> 15 };
         source.hostile = source.byte() & 1 == 1;
         source
     }
@@ -42,6 +45,12 @@ impl<'a> Source<'a> {
 
     pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.below(choices.len())]
+    }
+
+    /// Whether the input may do what takes long: one in `rarity` may, and what the fuzzer makes of it by changing a byte may not,
+    /// so that it cannot breed slow inputs.
+    pub fn may_be_slow(&self, rarity: u32) -> bool {
+        self.hash.is_multiple_of(rarity)
     }
 
     /// One time in sixteen.

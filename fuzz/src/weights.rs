@@ -12,7 +12,9 @@ pub fn weight(source: &mut Source<'_>) -> umb_weight {
     match source.byte() {
         byte @ 0..220 => byte as u32 % 10,
         220..236 => UMB_WEIGHT_TILTED_SECTIONS,
+        byte if !source.may_be_slow(8) => byte as u32 % 10,
         236..250 => UMB_WEIGHT_JET,
+        byte if !source.may_be_slow(32) => byte as u32 % 10,
         _ => UMB_WEIGHT_ADAPTIVE_JET,
     }
 }
@@ -49,8 +51,8 @@ pub fn model(source: &mut Source<'_>) -> Struct<umb_adaptive_model> {
     Struct::new(source, &mut model, false)
 }
 
-/// Mostly near 1, sometimes any power of two.
+/// Mostly near 1, sometimes a power of two so large or small that the ratio of two is still a number.
 fn positive(source: &mut Source<'_>) -> f64 {
     let byte = source.byte();
-    if byte < 240 { 2f64.powi(byte as i32 % 24 - 16) } else { 2f64.powi(source.number::<i16>() as i32 % 1000) }
+    if byte < 240 { 2f64.powi(byte as i32 % 24 - 16) } else { 2f64.powi(source.number::<i16>() as i32 % 500) }
 }
