@@ -72,6 +72,8 @@ impl Input {
         let scalar = if double { 8 } else { 4 };
         let layout = Layout::new(source, scalar, components, count);
         let mut block = Block::new(layout.size);
+        // No canaries where there are fewer rows than the call is told of: a result could well be one.
+        block.bytes_mut().fill(0);
         let mut finite = true;
         for (index, row) in rows.iter().take(count).enumerate() {
             let place = layout.start.wrapping_add(index.wrapping_mul(layout.step));
