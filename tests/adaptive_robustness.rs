@@ -267,3 +267,37 @@ fn progress_runs_from_0_to_1_and_can_cancel() {
         }
     }
 }
+
+#[test]
+fn degrees_of_freedom_are_at_least_one_however_strong_the_prior() {
+    // Found by fuzzing: a prior of hardly any size, and neighbours at the end of single precision. Rounding made it -1.6.
+    let far = f32::MAX as f64;
+    let positions = vec![
+        [0.0870117017067969, 0.08961740415543318, 0.9295310801826417],
+        [far, -0.006923347152769566, -6.895922124379712e-5],
+        [0.6586668913189277, 0.7495790477337747, 0.07804607991129166],
+        [-0.17513221754174352, 1.0305196024427405, -0.05902449944987887],
+        [-0.8479069019563109, 0.4169475075267508, 0.043499470781534974],
+        [-0.9893854284554334, -0.4870331383720291, 1e-38],
+        [-0.19200577428977633, -far, -0.09832294909283514],
+        [0.6330411833647591, -0.6935632391328425, -0.029774289112538037],
+        [0.05034612864255905, -0.01065580788999796, -0.9295138689689338],
+    ];
+    let faces = (1..8u32).flat_map(|v| {
+        let next = v % 7 + 1;
+        [vec![0, v, next], vec![8, next, v]]
+    });
+    let mesh = Mesh::new("far", positions, faces.collect()).rounded();
+    let model = AdaptiveModel {
+        coordinates: Coordinates::Height,
+        edge_length: 0.00390625,
+        noise: 0.000244140625,
+        sizes: [0.000244140625, 0.00390625, 0.015625, 3.141819817790545e-89],
+        noise_exponent: 0,
+        size_exponent: 1,
+        ..AdaptiveModel::default()
+    };
+    for (v, freedom) in jets(&mesh, Some(model), 3).freedom.into_iter().enumerate() {
+        assert!(freedom == 0.0 || (1.0..15.01).contains(&freedom), "vertex {v}: {freedom}");
+    }
+}

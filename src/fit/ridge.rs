@@ -203,14 +203,14 @@ impl<V: Vector<Scalar = f64>> Coefficients<V> {
         })
     }
 
-    /// How many of the coefficients the data decide.
+    /// How many of the coefficients the data decide; at least the height at the centre, however strong the prior and its rounding.
     #[inline(always)]
     pub fn freedom(&self) -> V {
         let mut freedom = V::constant(TERMS as f64);
         for term in 1..TERMS {
             freedom = freedom - self.prior[term] * self.variances[term];
         }
-        freedom
+        freedom.max(V::one())
     }
 
     /// The logarithm of the evidence, but for constants that are the same for all models.
