@@ -180,7 +180,11 @@ struct Choose<'a> {
 impl Task for Choose<'_> {
     #[inline(always)]
     fn run<W: Width>(self) {
-        *self.best = Some(Sampled::<W>::new(self.samples).map(|mut sampled| choose_model(&mut sampled)));
+        // Without closures, which would be functions of their own, of no width.
+        *self.best = Some(match Sampled::<W>::new(self.samples) {
+            Ok(mut sampled) => Ok(choose_model(&mut sampled)),
+            Err(error) => Err(error),
+        });
     }
 }
 
