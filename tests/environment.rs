@@ -52,7 +52,9 @@ fn results_keep_their_bits_and_the_host_its_state() {
                 let mut expected = Prepared::new(call, &fixture, &standard);
                 expected.succeed();
                 assert!(expected.is_finite(), "{call:?}");
-                for (index, &changed) in STATES.iter().enumerate() {
+                // Where a mesh has polygons, the last state, which is all of them at once.
+                let states = if quads == 0.0 { &STATES[..] } else { &STATES[5..] };
+                for (index, &changed) in states.iter().enumerate() {
                     let setting = Setting { single, ..Setting::threads(1 + index as u32 % 3) };
                     let mut prepared = Prepared::new(call, &fixture, &setting);
                     set_state(changed);
