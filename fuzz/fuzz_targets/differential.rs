@@ -329,7 +329,7 @@ fn against_oracle(case: &Case, found: &Results) {
             let edge = common::length(common::sub(mesh.positions[other as usize], mesh.positions[vertex]));
             (short.min(edge), long.max(edge))
         });
-        if short <= 1e-12 * long || weight == Weight::Conformal && has_opposite_faces(&oracle, vertex) {
+        if short <= 1e-12 * long || is_ambiguous(&oracle, vertex) {
             continue;
         }
         let answer = oracle.normal(vertex, weight);
@@ -346,10 +346,16 @@ fn against_oracle(case: &Case, found: &Results) {
     }
 }
 
-/// Whether two faces are so nearly opposite that rounding says whether an edge between them has a normal.
-fn has_opposite_faces(oracle: &Oracle<'_>, vertex: usize) -> bool {
-    let normals: Vec<_> = oracle.corners(vertex).iter().map(|corner| oracle.measure(vertex, corner).3).collect();
-    let opposite =
-        |a: &[f64; 3], b: &[f64; 3]| common::length(*a) > 0.0 && common::length(common::add(*a, *b)) < 1e-6;
-    normals.iter().enumerate().any(|(index, a)| normals[..index].iter().any(|b| opposite(a, b)))
+/// Whether rounding says what a face counts for: two faces are opposite, so that an edge between them has no normal; or a corner of a
+/// polygon stands upright on its normal, so that it is as much reflex as not.
+fn is_ambiguous(oracle: &Oracle<'_>, vertex: usize) -> bool {
+    let measured: Vec<_> = oracle.corners(vertex).iter().map(|corner| oracle.measure(vertex, corner)).collect();
+    let upright = measured.iter().any(|(a, b, _, normal, _)| {
+        let turned = common::cross(*a, *b);
+        common::dot(turned, *normal).abs() <= 1e-9 * common::length(turned)
+    });
+    let opposite = measured.iter().enumerate().any(|(index, (.., a, _))| {
+        measured[..index].iter().any(|(.., b, _)| common::length(common::add(*a, *b)) < 1e-6)
+    });
+    upright || opposite
 }
