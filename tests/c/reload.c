@@ -95,9 +95,8 @@ int main(int count, char **arguments) {
     CHECK((still_there != NULL) == (strcmp(arguments[3], "stays") == 0));
     if (still_there != NULL) CHECK(dlclose(still_there) == 0);
   }
-  /* Room for what the C library keeps for itself, such as an arena of 64 MB of addresses for a thread. The handles of all rounds would be
-     100 MB, and the stack of a thread left
-     behind in every round would be 2 GB. */
+  /* Room for what the C library keeps for itself, such as an arena of 64 MB of addresses for a thread. The handles of all rounds would
+     be 100 MB, and the stack of a thread left behind in every round 2 GB. */
   CHECK(memory_after - memory_before < 8 * 1024 && mapped_after - mapped_before < 512 * 1024);
   CHECK(entries("/proc/self/fd") == files && threads_are(threads));
 
