@@ -14,6 +14,7 @@ pub mod learning_oracle;
 pub mod linear;
 pub mod mesh;
 pub mod oracle;
+pub mod outputs;
 pub mod random;
 pub mod real;
 
