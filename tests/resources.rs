@@ -5,7 +5,7 @@
 mod common;
 use common::calls::{Call, Fixture, Prepared, Setting, all};
 use common::capi::message;
-use common::mesh;
+use common::mesh::{self, Mesh};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::SeqCst};
@@ -186,8 +186,38 @@ fn failing_calls_leave_nothing() {
     }
 }
 
+/// A gabled roof over a grid whose ridge has a hub of forty corners; and one of quads, creased all over.
+fn creased() -> [Mesh; 2] {
+    let side = 15;
+    let roof = |x: f64, y: f64| [x, y, 1.0 - x.abs()];
+    let (mut positions, mut faces) = (vec![roof(0.0, 0.0)], vec![]);
+    for ring in 1..=side {
+        for step in 0..40 {
+            let angle = std::f64::consts::TAU * step as f64 / 40.0;
+            let radius = ring as f64 / side as f64;
+            positions.push(roof(radius * angle.cos(), radius * angle.sin()));
+        }
+    }
+    let at = |ring: usize, step: usize| (1 + ring * 40 + step % 40) as u32;
+    for step in 0..40 {
+        faces.push(vec![0, at(0, step), at(0, step + 1)]);
+        for ring in 0..side - 1 {
+            faces.push(vec![at(ring, step), at(ring + 1, step), at(ring + 1, step + 1)]);
+            faces.push(vec![at(ring, step), at(ring + 1, step + 1), at(ring, step + 1)]);
+        }
+    }
+    let hub = Mesh::new("roof with a hub", positions, faces);
+    let mut pleats = mesh::torus(24, 20, 0.0, 1.0, 1);
+    for (vertex, position) in pleats.positions.iter_mut().enumerate() {
+        let (column, row) = (vertex / 20, vertex % 20);
+        *position = [column as f64, row as f64, if column % 2 == 0 { 0.0 } else { 1.5 }];
+    }
+    pleats.name = "pleats".into();
+    [hub, pleats]
+}
+
 fn main() {
-    // Small, with every defect; and large enough for several chunks.
+    // Small, with every defect; with creases; and large enough for several chunks.
     let small = [
         mesh::soup(40, 90, 3, 5),
         mesh::soup(40, 60, 6, 6),
@@ -198,6 +228,7 @@ fn main() {
     let small = small.map(Fixture::new);
     let large = [mesh::torus(80, 60, 0.3, 0.0, 2), mesh::torus(70, 50, 0.3, 0.5, 2)].map(Fixture::new);
     memory_runs_out(&small);
+    memory_runs_out(&creased().map(Fixture::new));
     memory_runs_out(&large);
     calls_are_cancelled(&large);
     failing_calls_leave_nothing();

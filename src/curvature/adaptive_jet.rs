@@ -17,7 +17,7 @@ use crate::fit::AdaptiveJet;
 use crate::normals::{AdaptiveOptions, Sink, adaptive_jets};
 use crate::parallel::Run;
 use crate::simd::{MAX_LANES, Vector, Vector3};
-use crate::sweep::{NormalRows, Ring, RingFaces, Scratch, sweep};
+use crate::sweep::{NormalRows, Ring, RingFaces, Room, Scratch, sweep_in};
 use crate::topology::{Topology, status};
 use crate::view::Points;
 
@@ -115,7 +115,7 @@ impl Sink for Results<'_> {
         self.outputs.write(&block, &flat.rows(self.outputs.taken()));
     }
 
-    fn write_creases(&self, mut run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
+    fn write_creases(&self, room: &Room, mut run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
         let creases = Curvatures {
             outputs: self.outputs,
             flags: self.topology.flags(),
@@ -123,6 +123,6 @@ impl Sink for Results<'_> {
             estimator: CreaseSections(LeastSquares { section: Section::Circle }),
             more: status::CREASE | status::FALLBACK,
         };
-        sweep(self.topology, self.points, &mut run, true, &creases)
+        sweep_in(room, self.topology, self.points, &mut run, &creases)
     }
 }

@@ -20,7 +20,7 @@ use crate::error::{Error, reserved};
 use crate::fit::{AdaptiveFit, AdaptiveJet, AdaptiveModel, Surroundings, learn};
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector};
-use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, check_counts, sweep_patches};
+use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, Room, check_counts, sweep_patches};
 use crate::topology::{Neighbourhood, Topology, closure, status};
 use crate::view::{Points, StatusOutput, zeroed};
 
@@ -58,8 +58,8 @@ pub(crate) trait Sink: Sync {
     /// Writes the vertices on creases, which are those of `run`; `normals` has theirs.
     ///
     /// # Errors
-    /// As [`sweep`](crate::sweep::sweep).
-    fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error>;
+    /// As [`sweep_in`](crate::sweep::sweep_in).
+    fn write_creases(&self, room: &Room, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error>;
 }
 
 /// Learns what adaptive jets use of a mesh, from a sample of all its vertices; `run.vertices` is not looked at.
@@ -109,7 +109,12 @@ pub(crate) fn adaptive_jets<S: Sink>(
         crate::parallel::fill(run.threads, &mut noise, |vertex| model.noise_at(around.edge_lengths[vertex]));
     }
     let mut creased: Vec<u8> = zeroed(topology.vertex_count())?;
-    // There before the first result is written.
+    // All memory is there before the first result is written.
+    let sharp = |vertex: &usize| around.may_be_creased(*vertex);
+    let room = match run.vertices {
+        Some(vertices) => Room::new(topology, vertices.iter().map(|&vertex| vertex as usize).filter(sharp))?,
+        None => Room::new(topology, (0..topology.vertex_count()).filter(sharp))?,
+    };
     let mut creases: Vec<u32> = reserved(run.vertices.map_or(topology.vertex_count(), <[u32]>::len))?;
     let quantity = Jets {
         fit: AdaptiveFit {
@@ -131,9 +136,9 @@ pub(crate) fn adaptive_jets<S: Sink>(
         None => creases.extend((0..topology.vertex_count() as u32).filter(is_creased)),
     }
     run.part_for(Some(&creases), 0.95, 0.97, |mut run| {
-        crease_normals(topology, points, &mut run, &mut around.normals)
+        crease_normals(&room, topology, points, &mut run, &mut around.normals)
     })?;
-    run.part_for(Some(&creases), 0.97, 1.0, |run| sink.write_creases(run, &around.normals))?;
+    run.part_for(Some(&creases), 0.97, 1.0, |run| sink.write_creases(&room, run, &around.normals))?;
     if let Some(progress) = &mut run.progress {
         // All is written, so a wish to cancel comes too late to matter.
         progress(1.0);
@@ -265,7 +270,7 @@ impl Sink for Normals<'_> {
         self.outputs.write(vertex, normal, normal, self.flags[vertex] | more);
     }
 
-    fn write_creases(&self, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
+    fn write_creases(&self, _room: &Room, run: Run<'_>, normals: &[[f64; 3]]) -> Result<(), Error> {
         for &vertex in run.vertices.unwrap_or(&[]) {
             self.write_none(vertex as usize, normals[vertex as usize], status::CREASE | status::FALLBACK);
         }

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::fit::Surroundings;
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
-use crate::sweep::{Corner, Face, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::sweep::{Corner, Face, Quantity, Ring, RingFaces, Room, Scratch, VertexFans, sweep, sweep_in};
 use crate::topology::Topology;
 use crate::view::{Output, Points, ScalarOutput, StatusOutput, zeroed};
 
@@ -175,14 +175,15 @@ impl Quantity for Look<'_> {
 /// Replaces the normals of the vertices of `run`, which must be a list, by those of vertices on a crease.
 ///
 /// # Errors
-/// As [`sweep`].
+/// As [`sweep_in`].
 pub(super) fn crease_normals(
+    room: &Room,
     topology: &Topology,
     points: &Points<'_>,
     run: &mut Run<'_>,
     normals: &mut [[f64; 3]],
 ) -> Result<(), Error> {
-    sweep(topology, points, run, true, &Crease { normal: normals.into() })
+    sweep_in(room, topology, points, run, &Crease { normal: normals.into() })
 }
 
 struct Crease<'a> {

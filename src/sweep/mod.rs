@@ -112,7 +112,40 @@ pub(crate) fn sweep<Q: Quantity>(
     double: bool,
     quantity: &Q,
 ) -> Result<(), Error> {
-    sweep_calls(topology, points, run, double, quantity)
+    sweep_calls(topology, points, run, double, quantity, None)
+}
+
+/// Memory for sweeps that may not fail for lack of it, because results have been written already.
+pub(crate) struct Room(Mutex<LargeRows>);
+
+impl Room {
+    /// For any of these vertices.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(crate) fn new(topology: &Topology, vertices: impl Iterator<Item = usize>) -> Result<Self, Error> {
+        Ok(Room(Mutex::new(LargeRows::new(most_edges_alone(topology, vertices))?)))
+    }
+}
+
+/// The most edges that one of these vertices has on the vertex-by-vertex path; 0 if all have as few as lanes.
+fn most_edges_alone(topology: &Topology, vertices: impl Iterator<Item = usize>) -> usize {
+    let alone = |vertex: &usize| matches!(topology.rings().class(*vertex), RingClass::Alone);
+    vertices.filter(alone).map(|vertex| topology.edges_alone(vertex)).max().unwrap_or(0)
+}
+
+/// As [`sweep`] for a list of vertices that `room` was made for, but without asking for memory.
+///
+/// # Errors
+/// As [`sweep`], without [`Error::OutOfMemory`].
+pub(crate) fn sweep_in<Q: Quantity>(
+    room: &Room,
+    topology: &Topology,
+    points: &Points<'_>,
+    run: &mut Run<'_>,
+    quantity: &Q,
+) -> Result<(), Error> {
+    sweep_calls(topology, points, run, true, quantity, Some(room))
 }
 
 /// As [`sweep`], for a quantity that takes its own vertex's normal from [`Scratch::normal`], where `normals` leaves it: both
@@ -128,7 +161,7 @@ pub(crate) fn sweep_with_normals<N: Quantity, Q: Quantity>(
     normals: &N,
     quantity: &Q,
 ) -> Result<(), Error> {
-    sweep_calls(topology, points, run, double, &Both { first: normals, second: quantity })
+    sweep_calls(topology, points, run, double, &Both { first: normals, second: quantity }, None)
 }
 
 fn sweep_calls(
@@ -137,13 +170,16 @@ fn sweep_calls(
     run: &mut Run<'_>,
     double: bool,
     calls: &dyn Calls,
+    room: Option<&Room>,
 ) -> Result<(), Error> {
     check_points(topology, points, run.vertices)?;
     match points.array() {
         PointArray::F32(points) => {
-            sweep_points(topology, points, run, double, calls, |sweep| AnySweep::Single(sweep))
+            sweep_points(topology, points, run, double, calls, room, |sweep| AnySweep::Single(sweep))
         }
-        PointArray::F64(points) => sweep_points(topology, points, run, true, calls, |sweep| AnySweep::Double(sweep)),
+        PointArray::F64(points) => {
+            sweep_points(topology, points, run, true, calls, room, |sweep| AnySweep::Double(sweep))
+        }
     }
 }
 
@@ -153,9 +189,11 @@ fn sweep_points<S: Coordinate>(
     run: &mut Run<'_>,
     double: bool,
     calls: &dyn Calls,
+    room: Option<&Room>,
     any: impl for<'a> Fn(&'a Sweep<'a, S>) -> AnySweep<'a> + Sync,
 ) -> Result<(), Error> {
-    let few = run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
+    // Without memory for all of them, polygons are computed where they are met.
+    let few = room.is_some() || run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
     let frames = match topology.polygons() {
         Some(polygons) => {
             let normals = calls.neighbour_normals();
@@ -169,16 +207,18 @@ fn sweep_points<S: Coordinate>(
     let chunks = vertices.map_or(topology.rings().windows(), |vertices| vertices.len().div_ceil(WINDOW));
     // The one buffer whose size depends on the mesh is there before the first result is written. Vertices that need it
     // are few and take turns.
-    let large = match vertices {
-        None => topology.largest_alone(),
-        Some(vertices) => {
-            let alone = |vertex: &u32| matches!(topology.rings().class(*vertex as usize), RingClass::Alone);
-            let edges = |vertex: &u32| topology.edges_alone(*vertex as usize);
-            vertices.iter().filter(|vertex| alone(vertex)).map(edges).max().unwrap_or(0)
+    let own;
+    let large = match room {
+        Some(room) => &room.0,
+        None => {
+            own = Mutex::new(LargeRows::new(match vertices {
+                None => topology.largest_alone(),
+                Some(vertices) => most_edges_alone(topology, vertices.iter().map(|&vertex| vertex as usize)),
+            })?);
+            &own
         }
     };
-    let large = Mutex::new(LargeRows::new(large)?);
-    let sweep = Sweep { topology, points, frames, normals, vertices, double, large: &large };
+    let sweep = Sweep { topology, points, frames, normals, vertices, double, large };
     for_each_chunk(run, chunks, |claims| calls.work(level, Part { sweep: any(&sweep), claims }))
 }
 
