@@ -163,6 +163,11 @@ fn compare(mesh: &Mesh, method: Method, given: bool) -> (f64, usize) {
         {
             others[1] = 0.0;
         }
+        // Directions are of length one but for their own rounding, however the normal was.
+        for direction in [found.direction1[vertex], found.direction2[vertex]] {
+            let off = (length(direction.map(f64::from)) - 1.0).abs();
+            assert!(direction == [0.0; 3] || off < 6e-8, "{}, {method:?}, vertex {vertex}: {off:e}", mesh.name);
+        }
         // The direction is as sharp as the principal curvatures are apart.
         let apart = (expected.k1[vertex] - expected.k2[vertex]) * edge;
         if principal && apart > 1e-3 {

@@ -1,10 +1,11 @@
 //! What adaptive jets know of a mesh.
 
-use super::guard::{check_reserved, guard, read_required, read_versioned, write_versioned};
+use super::guard::guard;
 use super::normals::umb_normal_options;
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::umb_points;
+use super::versioned::{check_reserved, read_required, read_versioned, write_versioned};
 use crate::error::Error;
 use crate::fit::{AdaptiveModel, Coordinates};
 use crate::normals::learn_model;

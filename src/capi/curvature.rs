@@ -1,12 +1,13 @@
 //! Curvatures of meshes.
 
 use super::adaptive::{model_given, umb_adaptive_model};
-use super::guard::{check_reserved, guard, read_required, read_versioned, required};
+use super::guard::guard;
 use super::normals::{AskedWeight, umb_weight};
 use super::sections::{section, umb_section, vertex_normals_asked};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_output, umb_points, umb_run, umb_status_output};
+use super::versioned::{check_reserved, read_required, read_versioned, required};
 use crate::curvature::{CurvatureOptions, CurvatureOutputs, Method, curvatures};
 use crate::error::Error;
 use std::mem::offset_of;

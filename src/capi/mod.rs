@@ -10,23 +10,44 @@
 // The contracts are in the header's words, on each function.
 #![allow(clippy::missing_safety_doc)]
 
-mod adaptive;
-mod curvature;
 mod guard;
-mod normals;
-mod polyline;
-mod sections;
 mod status;
-mod topology;
-mod types;
-mod version;
 
-pub use adaptive::*;
-pub use curvature::*;
-pub use normals::*;
-pub use polyline::*;
-pub use sections::*;
 pub use status::*;
+
+// The unit tests call no entry point, but whatever is exported would be compiled for them all the same, minutes of kernels.
+#[cfg(not(test))]
+mod adaptive;
+#[cfg(not(test))]
+mod curvature;
+#[cfg(not(test))]
+mod normals;
+#[cfg(not(test))]
+mod polyline;
+#[cfg(not(test))]
+mod sections;
+#[cfg(not(test))]
+mod topology;
+#[cfg(not(test))]
+mod types;
+#[cfg(not(test))]
+mod version;
+#[cfg(not(test))]
+mod versioned;
+
+#[cfg(not(test))]
+pub use adaptive::*;
+#[cfg(not(test))]
+pub use curvature::*;
+#[cfg(not(test))]
+pub use normals::*;
+#[cfg(not(test))]
+pub use polyline::*;
+#[cfg(not(test))]
+pub use sections::*;
+#[cfg(not(test))]
 pub use topology::*;
+#[cfg(not(test))]
 pub use types::*;
+#[cfg(not(test))]
 pub use version::*;

@@ -1,10 +1,11 @@
 //! Vertex and face normals.
 
 use super::adaptive::{model_given, umb_adaptive_model};
-use super::guard::{check_reserved, guard, read_required, read_versioned, required};
+use super::guard::guard;
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_faces, umb_output, umb_points, umb_run, umb_status_output};
+use super::versioned::{check_reserved, read_required, read_versioned, required};
 use crate::error::Error;
 use crate::fit::{JetOptions, MOST_DEGREE};
 use crate::normals::{

@@ -1,8 +1,9 @@
 //! Curvatures of polylines.
 
-use super::guard::{check_reserved, guard, read_required, read_versioned, required};
+use super::guard::guard;
 use super::status::{umb_error, umb_status};
 use super::types::{UMB_SCALAR_F32, UMB_SCALAR_F64, umb_output, umb_run, umb_scalar, umb_status_output};
+use super::versioned::{check_reserved, read_required, read_versioned, required};
 use crate::curvature::{PolylineOutputs, polyline_curvatures};
 use crate::error::Error;
 use crate::view::PolylinePoints;

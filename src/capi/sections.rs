@@ -1,11 +1,12 @@
 //! Sections of meshes.
 
 use super::adaptive::umb_adaptive_model;
-use super::guard::{check_reserved, guard, read_required, read_versioned, required};
+use super::guard::guard;
 use super::normals::{AskedWeight, umb_weight};
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
 use super::types::{umb_output, umb_points, umb_run, umb_status_output};
+use super::versioned::{check_reserved, read_required, read_versioned, required};
 use crate::curvature::{Directions, Section, SectionOutputs, VertexNormals, direction_sections, edge_sections};
 use crate::error::Error;
 use crate::normals::Weight;

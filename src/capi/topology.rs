@@ -1,8 +1,9 @@
 //! Topology handles.
 
-use super::guard::{check_reserved, guard, read_required, read_versioned, write_versioned};
+use super::guard::guard;
 use super::status::{umb_error, umb_status};
 use super::types::{level_of, umb_faces, umb_simd};
+use super::versioned::{check_reserved, read_required, read_versioned, write_versioned};
 use crate::error::Error;
 use crate::topology::{Topology, status};
 use crate::view::boxed;

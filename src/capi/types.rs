@@ -1,6 +1,7 @@
 //! Views and options as C sees them.
 
-use super::guard::{Versioned, check_reserved, outside};
+use super::guard::outside;
+use super::versioned::{Versioned, check_reserved};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::Level;

@@ -410,16 +410,9 @@ impl CurvatureOutputs<'_> {
         let scales = &block.scales;
         let [k1, k2, mean, gaussian, area, integrated_mean, integrated_gaussian, residual, condition, ..] = &rows.0;
         macro_rules! write {
-            ($($output:ident, |$lane:ident| [$($value:expr),*];)*) => {$(
+            ($($output:ident, $element:expr;)*) => {$(
                 if let Some(output) = &self.$output {
-                    let mut values = [$({ let _ = stringify!($value); [0.0; MAX_LANES] }),*];
-                    for $lane in 0..block.vertices.len().min(MAX_LANES) {
-                        let element = [$($value),*];
-                        for axis in 0..element.len() {
-                            values[axis][$lane] = element[axis];
-                        }
-                    }
-                    output.write_block(block.vertices, block.lanes, &values);
+                    output.write_block(block.vertices, block.lanes, &transposed(block.vertices.len(), $element));
                 }
             )*};
         }
@@ -427,12 +420,12 @@ impl CurvatureOutputs<'_> {
         write! {
             k1, |lane| [k1[lane] * scales[lane]];
             k2, |lane| [k2[lane] * scales[lane]];
-            direction1, |lane| [d[0][lane], d[1][lane], d[2][lane]];
-            direction2, |lane| [
+            direction1, |lane| polished([d[0][lane], d[1][lane], d[2][lane]]);
+            direction2, |lane| polished([
                 n[1][lane] * d[2][lane] - d[1][lane] * n[2][lane],
                 n[2][lane] * d[0][lane] - d[2][lane] * n[0][lane],
                 n[0][lane] * d[1][lane] - d[0][lane] * n[1][lane]
-            ];
+            ]);
             mean, |lane| [mean[lane] * scales[lane]];
             gaussian, |lane| [gaussian[lane] * scales[lane] * scales[lane]];
             mean_normal, |lane| [m[0][lane] * scales[lane], m[1][lane] * scales[lane], m[2][lane] * scales[lane]];
@@ -473,6 +466,25 @@ impl CurvatureOutputs<'_> {
             output.write(vertex, status);
         }
     }
+}
+
+/// The components of the elements of all lanes, each in a row.
+#[inline(always)]
+fn transposed<const N: usize>(lanes: usize, element: impl Fn(usize) -> [f64; N]) -> [[f64; MAX_LANES]; N] {
+    let mut rows = [[0.0; MAX_LANES]; N];
+    for lane in 0..lanes.min(MAX_LANES) {
+        for (row, value) in rows.iter_mut().zip(element(lane)) {
+            row[lane] = value;
+        }
+    }
+    rows
+}
+
+/// A vector that is of length 1 but for rounding in single precision, of length 1 to double precision.
+#[inline(always)]
+fn polished([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let factor = 1.5 - 0.5 * (x * x + y * y + z * z);
+    [x * factor, y * factor, z * factor]
 }
 
 /// `(2/π) atan((k1 + k2) / (k1 − k2))`, 0 where both are zero.
