@@ -81,9 +81,9 @@ fn call_with(prepared: &mut Prepared<'_>, left: i64, for_good: bool) -> (umb_sta
 }
 
 /// Every allocation of a call fails once; answers with how many there are.
-fn walk(call: Call, fixture: &Fixture, threads: u32, for_good: bool) -> u64 {
-    let setting = Setting::threads(threads);
-    let mut prepared = Prepared::new(call, fixture, &setting);
+fn walk(call: Call, fixture: &Fixture, setting: &Setting<'_>, for_good: bool) -> u64 {
+    let threads = setting.threads;
+    let mut prepared = Prepared::new(call, fixture, setting);
     let live = LIVE.load(SeqCst);
     let mut step = 0;
     loop {
@@ -106,11 +106,22 @@ fn walk(call: Call, fixture: &Fixture, threads: u32, for_good: bool) -> u64 {
 fn memory_runs_out(fixtures: &[Fixture]) {
     let mut faults = 0;
     for fixture in fixtures {
+        let mut learnt = Prepared::new(Call::Learn, fixture, &Setting::threads(1));
+        learnt.succeed();
+        let list: Vec<u32> = (0..fixture.mesh.positions.len() as u32).rev().step_by(3).collect();
         for call in all() {
-            for threads in [1, 3] {
-                for for_good in [false, true] {
-                    faults += walk(call, fixture, threads, for_good);
+            for for_good in [false, true] {
+                for threads in [1, 3] {
+                    let whole = Setting::threads(threads);
+                    faults += walk(call, fixture, &whole, for_good);
+                    if call.takes_list() {
+                        faults += walk(call, fixture, &Setting { list: Some(&list), ..whole }, for_good);
+                    }
                 }
+                let setting = Setting { single: true, ..Setting::threads(1) };
+                faults += walk(call, fixture, &setting, for_good);
+                let setting = Setting { single: true, model: Some(&learnt.model), list: Some(&list), ..setting };
+                faults += walk(call, fixture, &setting, for_good);
             }
         }
     }

@@ -75,6 +75,8 @@ pub struct Setting<'a> {
     pub threads: u32,
     pub simd: umb_simd,
     pub list: Option<&'a [u32]>,
+    /// For adaptive jets; without, a call learns its own.
+    pub model: Option<&'a umb_adaptive_model>,
     pub progress: umb_progress,
     pub user: *mut c_void,
 }
@@ -86,6 +88,7 @@ impl Setting<'_> {
             threads,
             simd: UMB_SIMD_BEST,
             list: None,
+            model: None,
             progress: None,
             user: std::ptr::null_mut(),
         }
@@ -111,7 +114,7 @@ pub struct Prepared<'a> {
     curvature_outputs: umb_curvature_outputs,
     section_outputs: umb_section_outputs,
     polyline_outputs: umb_polyline_outputs,
-    model: umb_adaptive_model,
+    pub model: umb_adaptive_model,
     stats: umb_topology_stats,
     valence: usize,
     handle: *mut umb_topology,
@@ -124,7 +127,7 @@ pub struct Prepared<'a> {
 pub const UNTOUCHED: f64 = f64::from_bits(0xa5a5_a5a5_a5a5_a5a5);
 
 impl<'a> Prepared<'a> {
-    pub fn new(call: Call, fixture: &'a Fixture, setting: &'a Setting<'_>) -> Self {
+    pub fn new(call: Call, fixture: &'a Fixture, setting: &Setting<'a>) -> Self {
         let mesh = &fixture.mesh;
         let mut run: umb_run = zeroed();
         (run.threads, run.simd) = (setting.threads, setting.simd);
@@ -168,10 +171,10 @@ impl<'a> Prepared<'a> {
             arrays: vec![],
         };
         (prepared.topology_options.threads, prepared.topology_options.simd) = (setting.threads, setting.simd);
-        prepared.normal_options.run = run;
+        let model = setting.model.map_or(std::ptr::null(), std::ptr::from_ref);
+        (prepared.normal_options.run, prepared.normal_options.model) = (run, model);
         prepared.face_options.run = run;
-        prepared.curvature_options.run = run;
-        prepared.section_options.run = run;
+        (prepared.section_options.run, prepared.section_options.model) = (run, model);
         prepared.polyline_options.run = run;
         let (vertices, entries) = (mesh.positions.len(), unsafe {
             *umb_topology_ring_offsets(fixture.handle.0).add(mesh.positions.len()) as usize
@@ -191,7 +194,7 @@ impl<'a> Prepared<'a> {
             }
             Call::Curvatures(method) | Call::Balls(method) => {
                 prepared.curvature_options = options(method);
-                prepared.curvature_options.run = run;
+                (prepared.curvature_options.run, prepared.curvature_options.model) = (run, model);
                 if matches!(call, Call::Balls(_)) {
                     prepared.curvature_options.radius = 0.5;
                 }
