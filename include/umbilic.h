@@ -463,7 +463,8 @@ typedef struct umb_adaptive_model {
    */
   double edge_length;
   /**
-   * The standard deviation of the positions along the normal that is not the surface's, in the mesh's unit; above 0.
+   * The standard deviation of the positions along the normal that is not the surface's, in the mesh's unit; above 0, also
+   * when divided by `edge_length` (a quotient that rounds to 0 or to infinity is `UMB_ERROR_OPTION_OUT_OF_RANGE`).
    */
   double noise;
   /**

@@ -33,7 +33,8 @@ pub struct umb_adaptive_model {
     pub coordinates: umb_coordinates,
     /// The median over the vertices of the mean length of a vertex's edges, in the mesh's unit; above 0.
     pub edge_length: f64,
-    /// The standard deviation of the positions along the normal that is not the surface's, in the mesh's unit; above 0.
+    /// The standard deviation of the positions along the normal that is not the surface's, in the mesh's unit; above 0, also
+    /// when divided by `edge_length` (a quotient that rounds to 0 or to infinity is `UMB_ERROR_OPTION_OUT_OF_RANGE`).
     pub noise: f64,
     /// The root mean square size of the surface's Taylor coefficients of degrees 2, 3 and 4, and of what lies beyond, for
     /// lengths in units of `edge_length`; above 0.
