@@ -26,6 +26,7 @@ mod error;
 mod fit;
 mod normals;
 mod parallel;
+mod parts;
 mod simd;
 mod sweep;
 mod topology;
@@ -43,6 +44,7 @@ pub use normals::{
     vertex_normals_from_faces,
 };
 pub use parallel::Run;
+pub use parts::{CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, corner_normals};
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};
 pub use view::{Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, StatusOutput};

@@ -1,6 +1,7 @@
 //! Topology: the one-rings of all vertices, built once from faces alone and reused while positions move, and the
 //! neighbourhoods of several rings that are gathered from them.
 
+mod adjacency;
 mod build;
 mod closure;
 mod corners;
@@ -12,6 +13,7 @@ mod stats;
 
 pub use stats::TopologyStats;
 
+pub(crate) use adjacency::{Adjacency, NO_CORNER, has_three_corners};
 pub(crate) use closure::closure;
 pub(crate) use neighbourhood::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
 pub(crate) use polygons::Polygons;

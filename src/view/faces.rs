@@ -213,6 +213,18 @@ impl<'a> Faces<'a> {
         self.indices
     }
 
+    /// Faces of the same sizes, with other vertices.
+    ///
+    /// # Panics
+    /// Where there are not as many.
+    pub(crate) fn with_indices<'b>(&self, indices: &'b [u32]) -> Faces<'b>
+    where
+        'a: 'b,
+    {
+        assert_eq!(indices.len(), self.indices.len());
+        Faces { indices: Indices::U32(indices), shape: self.shape }
+    }
+
     /// Whether every face has three corners.
     pub(crate) fn all_triangles(&self) -> bool {
         match self.shape {

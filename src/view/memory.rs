@@ -15,6 +15,8 @@ unsafe impl Zero for u16 {}
 // SAFETY: as above.
 unsafe impl Zero for u32 {}
 // SAFETY: as above.
+unsafe impl Zero for u64 {}
+// SAFETY: as above.
 unsafe impl Zero for f64 {}
 // SAFETY: as above.
 unsafe impl Zero for f32 {}

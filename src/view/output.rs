@@ -60,6 +60,12 @@ impl<'a, const N: usize> Output<'a, N> {
         Ok(Output { base, count, stride, double, memory: PhantomData })
     }
 
+    /// Another view of the same memory, while this one is not used otherwise.
+    pub(crate) fn again(&self) -> Output<'_, N> {
+        let Output { base, count, stride, double, .. } = *self;
+        Output { base, count, stride, double, memory: PhantomData }
+    }
+
     /// The number of elements.
     pub fn len(&self) -> usize {
         self.count
@@ -236,6 +242,12 @@ impl<'a> StatusOutput<'a> {
             return Err(Error::NullPointer { what: "status.data" });
         }
         Ok(StatusOutput { base: data, count, stride, memory: PhantomData })
+    }
+
+    /// Another view of the same memory, while this one is not used otherwise.
+    pub(crate) fn again(&self) -> StatusOutput<'_> {
+        let StatusOutput { base, count, stride, .. } = *self;
+        StatusOutput { base, count, stride, memory: PhantomData }
     }
 
     /// The number of bytes.

@@ -1,0 +1,105 @@
+//! Corner normals: a unit normal for each corner of each face, smooth within a run of faces around a vertex and split at creases.
+//!
+//! They are the vertex normals of the [`CutMesh`], with any weight: an open run of faces counts as one at a boundary does. Where nothing
+//! is cut they are the vertex normals themselves, to the bit. With [`Weight::Angle`] they are what Blender shows for marked sharp edges and what
+//! tools that bake for MikkTSpace expect: MikkTSpace computes tangents, and takes normals like these as given.
+//!
+//! Cost: that of the vertex normals, and a copy of positions and of results.
+
+use super::cut::{CutMesh, Positions};
+use crate::error::Error;
+use crate::normals::{NormalOutputs, Weight, vertex_normals};
+use crate::parallel::Run;
+use crate::view::{Output, Points, StatusOutput, zeroed};
+
+/// Where the results of [`corner_normals`] go; all are optional.
+#[derive(Debug, Default)]
+pub struct CornerOutputs<'a> {
+    /// A unit normal for each corner, `#C × 3`; zero where there is none.
+    pub corner: Option<Output<'a>>,
+    /// Normals and statuses by cut vertex, to which [`CutMesh::corners`] are the index.
+    pub vertex: NormalOutputs<'a>,
+}
+
+/// Computes corner normals, and the vertex normals of the cut mesh that they come from. `points` are those of the original vertices.
+/// [`Run::vertices`] lists cut vertices, and is for their normals only.
+///
+/// # Errors
+/// [`Error::Size`] where counts do not fit; [`Error::NotApplicable`] for corners with a list of vertices; those of
+/// [`vertex_normals`], which name cut vertices.
+pub fn corner_normals(
+    cut: &CutMesh,
+    points: &Points<'_>,
+    weight: Weight,
+    run: Run<'_>,
+    outputs: &CornerOutputs<'_>,
+) -> Result<(), Error> {
+    if let Some(corner) = &outputs.corner {
+        if corner.len() != cut.corners().len() {
+            let (found, expected) = (corner.len() as u64, cut.corners().len() as u64);
+            return Err(Error::Size { what: "corner.count", found, expected });
+        }
+        if run.vertices.is_some() {
+            return Err(Error::NotApplicable { what: "corner normals of a list of vertices" });
+        }
+    }
+    match cut.positions(points)? {
+        Positions::F32(positions) => at_cut_vertices(cut, &positions[..].into(), weight, run, outputs),
+        Positions::F64(positions) => at_cut_vertices(cut, &positions[..].into(), weight, run, outputs),
+    }
+}
+
+fn at_cut_vertices(
+    cut: &CutMesh,
+    positions: &Points<'_>,
+    weight: Weight,
+    run: Run<'_>,
+    outputs: &CornerOutputs<'_>,
+) -> Result<(), Error> {
+    let Some(corner) = &outputs.corner else {
+        return vertex_normals(cut.topology(), positions, weight, run, &outputs.vertex);
+    };
+    let double = [Some(corner), outputs.vertex.normal.as_ref()].into_iter().flatten().any(Output::is_double);
+    if double {
+        let mut normals: Vec<[f64; 3]> = zeroed(positions.len())?;
+        expand(cut, positions, weight, run, outputs, corner, &mut normals)
+    } else {
+        let mut normals: Vec<[f32; 3]> = zeroed(positions.len())?;
+        expand(cut, positions, weight, run, outputs, corner, &mut normals)
+    }
+}
+
+/// Computes into `normals`, and copies from there.
+fn expand<S: Copy + Into<f64>>(
+    cut: &CutMesh,
+    positions: &Points<'_>,
+    weight: Weight,
+    run: Run<'_>,
+    outputs: &CornerOutputs<'_>,
+    corner: &Output<'_>,
+    normals: &mut [[S; 3]],
+) -> Result<(), Error>
+where
+    for<'a> &'a mut [[S; 3]]: Into<Output<'a>>,
+{
+    let asked = &outputs.vertex;
+    if let Some(found) = asked.normal.as_ref().map(Output::len).filter(|&found| found != positions.len()) {
+        return Err(Error::Size { what: "normal.count", found: found as u64, expected: positions.len() as u64 });
+    }
+    let own = NormalOutputs {
+        normal: Some((&mut *normals).into()),
+        sum: asked.sum.as_ref().map(Output::again),
+        status: asked.status.as_ref().map(StatusOutput::again),
+    };
+    vertex_normals(cut.topology(), positions, weight, run, &own)?;
+    drop(own);
+    if let Some(output) = &asked.normal {
+        for (vertex, normal) in normals.iter().enumerate() {
+            output.write(vertex, normal.map(Into::into));
+        }
+    }
+    for (place, &vertex) in cut.corners().iter().enumerate() {
+        corner.write(place, normals[vertex as usize].map(Into::into));
+    }
+    Ok(())
+}

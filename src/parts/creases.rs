@@ -1,0 +1,144 @@
+//! Which edges of a mesh are creases: by the angle between their faces, marked by the caller, or between smoothing groups.
+//!
+//! Any of the three makes an edge a crease. An edge with one face, or with more than two, or whose two faces run through it in the same
+//! direction, separates its faces in any case and is not asked about. A face without area has no normal, and no edge of it is sharp.
+//!
+//! Numerical notes: unit normals are those of [`face_normals`](crate::face_normals), in `f64`; angles are compared by
+//! the chord between the normals, which keeps its digits where the angle is small. Cost: linear in the number of corners, and a bisection of the marked edges for each.
+
+use crate::error::{Error, filled, reserved};
+use crate::sweep::area_vector;
+use crate::topology::{Adjacency, NO_CORNER};
+use crate::view::{Coordinate, Faces, Index, PointArray, Points, StridedPoints, with_indices, zeroed};
+use glam::DVec3;
+
+/// The largest angle between the normals of two faces that [`Creases::default`] takes for smooth: 30°.
+pub const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
+
+/// Which edges are creases.
+#[derive(Clone, Copy, Debug)]
+pub struct Creases<'a> {
+    /// An edge is a crease if the normals of its two faces differ by more than this, in radians; from π on none is.
+    pub angle: f64,
+    /// Pairs of vertices whose edges are creases, in any order; pairs that no edge joins mean nothing.
+    pub edges: &'a [[u32; 2]],
+    /// A number for each face: the edge between two faces is a crease if theirs differ, or are 0 (as in OBJ files, where group 0
+    /// is no group).
+    pub groups: Option<&'a [u32]>,
+}
+
+impl Default for Creases<'_> {
+    fn default() -> Self {
+        Creases { angle: DEFAULT_CREASE_ANGLE, edges: &[], groups: None }
+    }
+}
+
+impl Creases<'_> {
+    /// For each corner, 1 if the edge that starts there is a crease; 0 where its face meets no other across it.
+    ///
+    /// # Errors
+    /// [`Error::OptionOutOfRange`] for an angle that is negative or no number; [`Error::Size`] for groups of another number
+    /// than faces; [`Error::NonFinitePosition`]; [`Error::OutOfMemory`].
+    pub(crate) fn find(
+        &self,
+        faces: &Faces<'_>,
+        points: &Points<'_>,
+        adjacency: &Adjacency,
+        face_of: &[u32],
+    ) -> Result<Vec<u8>, Error> {
+        if !(self.angle >= 0.0) {
+            return Err(Error::OptionOutOfRange { what: "angle" });
+        }
+        if let Some(found) = self.groups.map(<[u32]>::len).filter(|&found| found != faces.len()) {
+            return Err(Error::Size { what: "groups.count", found: found as u64, expected: faces.len() as u64 });
+        }
+        let mut creases: Vec<u8> = zeroed(face_of.len())?;
+        if self.angle < std::f64::consts::PI {
+            let normals = unit_normals(faces, points)?;
+            let sharp = Sharp::than(self.angle);
+            mark(&mut creases, adjacency, |corner, other| {
+                sharp.is_between(normals[face_of[corner] as usize], normals[face_of[other] as usize])
+            });
+        }
+        if let Some(groups) = self.groups {
+            mark(&mut creases, adjacency, |corner, other| {
+                let (one, two) = (groups[face_of[corner] as usize], groups[face_of[other] as usize]);
+                one != two || one == 0
+            });
+        }
+        if !self.edges.is_empty() {
+            let mut marked: Vec<u64> = reserved(self.edges.len())?;
+            marked.extend(self.edges.iter().map(|&[a, b]| key(a, b)));
+            marked.sort_unstable();
+            with_indices!(faces.indices(), indices => mark(&mut creases, adjacency, |corner, other| {
+                // The other corner stands at the edge's other end.
+                let (a, b) = (indices[corner].widen() as u32, indices[other].widen() as u32);
+                marked.binary_search(&key(a, b)).is_ok()
+            }));
+        }
+        Ok(creases)
+    }
+}
+
+fn key(a: u32, b: u32) -> u64 {
+    (a.min(b) as u64) << 32 | a.max(b) as u64
+}
+
+/// Marks both sides of the edges of which `is_crease(corner, opposite)` says so.
+fn mark(creases: &mut [u8], adjacency: &Adjacency, is_crease: impl Fn(usize, usize) -> bool) {
+    for corner in 0..creases.len() {
+        let other = adjacency.opposite(corner);
+        if other != NO_CORNER && corner < other as usize && is_crease(corner, other as usize) {
+            (creases[corner], creases[other as usize]) = (1, 1);
+        }
+    }
+}
+
+/// The face of each corner.
+pub(crate) fn faces_of_corners(faces: &Faces<'_>) -> Result<Vec<u32>, Error> {
+    let mut face_of = filled(faces.indices().len(), 0)?;
+    for face in 0..faces.len() {
+        face_of[faces.range(face)].fill(face as u32);
+    }
+    Ok(face_of)
+}
+
+/// Unit face normals; zero where there is none.
+pub(crate) fn unit_normals(faces: &Faces<'_>, points: &Points<'_>) -> Result<Vec<DVec3>, Error> {
+    fn each<S: Coordinate, I: Index>(
+        faces: &Faces<'_>,
+        indices: &[I],
+        points: &StridedPoints<'_, S>,
+        normals: &mut [DVec3],
+    ) {
+        for (face, normal) in normals.iter_mut().enumerate() {
+            let found = area_vector(points, &indices[faces.range(face)]);
+            *normal = found.map_or(DVec3::ZERO, |found| found.normal);
+        }
+    }
+    let mut normals = filled(faces.len(), DVec3::ZERO)?;
+    with_indices!(faces.indices(), indices => match points.array() {
+        PointArray::F32(points) => each(faces, indices, points, &mut normals),
+        PointArray::F64(points) => each(faces, indices, points, &mut normals),
+    });
+    Ok(normals)
+}
+
+/// Compares angles between unit vectors with a given one.
+pub(crate) struct Sharp {
+    /// The squared length of the difference of two unit vectors at that angle.
+    chord_squared: f64,
+}
+
+impl Sharp {
+    pub fn than(angle: f64) -> Self {
+        let chord = 2.0 * libm::sin(0.5 * angle.min(std::f64::consts::PI));
+        Sharp { chord_squared: chord * chord }
+    }
+
+    /// Whether the angle between them is larger; not if one of them is zero.
+    #[inline(always)]
+    pub fn is_between(&self, a: DVec3, b: DVec3) -> bool {
+        a != DVec3::ZERO && b != DVec3::ZERO && (a - b).length_squared() > self.chord_squared
+    }
+}
