@@ -17,6 +17,8 @@ macro_rules! layout {
 #[test]
 fn layouts() {
     layout!(umb_adaptive_model: 88, struct_size 0, coordinates 4, edge_length 8, noise 16, sizes 24, noise_exponent 56, size_exponent 60, evidence 64, sample 80, reserved 84);
+    layout!(umb_corner_outputs: 96, struct_size 0, reserved 4, corner 8, normal 32, sum 56, status 80);
+    layout!(umb_creases: 48, struct_size 0, reserved 4, angle 8, edges 16, edge_count 24, groups 32, group_count 40);
     layout!(umb_curvature_options: 120, struct_size 0, method 4, section 8, weight 12, radius 16, degree 24, rings 28, normal_degree 32, normal_rings 36, model 40, normals 48, run 80);
     layout!(umb_curvature_outputs: 408, struct_size 0, reserved 4, k1 8, k2 32, direction1 56, direction2 80, mean 104, gaussian 128, mean_normal 152, area 176, integrated_mean 200, integrated_gaussian 224, shape_index 248, curvedness 272, residual 296, condition 320, degrees_of_freedom 344, normal 368, status 392);
     layout!(umb_error: 256, struct_size 0, status 4, element 8, message 16);

@@ -21,6 +21,8 @@ mod adaptive;
 #[cfg(not(test))]
 mod curvature;
 #[cfg(not(test))]
+mod cut;
+#[cfg(not(test))]
 mod normals;
 #[cfg(not(test))]
 mod polyline;
@@ -39,6 +41,8 @@ mod versioned;
 pub use adaptive::*;
 #[cfg(not(test))]
 pub use curvature::*;
+#[cfg(not(test))]
+pub use cut::*;
 #[cfg(not(test))]
 pub use normals::*;
 #[cfg(not(test))]

@@ -275,10 +275,24 @@ unsafe fn vertex_outputs<'a>(
     unsafe {
         let outputs = required(outputs, "outputs")?;
         check_reserved("umb_normal_outputs", offset_of!(umb_normal_outputs, reserved), outputs.reserved)?;
+        vertex_views(&outputs.normal, &outputs.sum, &outputs.status, vertex_count)
+    }
+}
+
+/// # Safety
+/// The outputs are as the header asks, with an element for each of `vertex_count` vertices.
+pub(super) unsafe fn vertex_views<'a>(
+    normal: &umb_output,
+    sum: &umb_output,
+    status: &umb_status_output,
+    vertex_count: usize,
+) -> Result<NormalOutputs<'a>, Error> {
+    // SAFETY: handed on.
+    unsafe {
         Ok(NormalOutputs {
-            normal: outputs.normal.view(vertex_count)?,
-            sum: outputs.sum.view(vertex_count)?,
-            status: outputs.status.view(vertex_count)?,
+            normal: normal.view(vertex_count)?,
+            sum: sum.view(vertex_count)?,
+            status: status.view(vertex_count)?,
         })
     }
 }
@@ -331,7 +345,7 @@ impl AskedWeight {
 impl umb_normal_options {
     /// # Safety
     /// As the header asks.
-    unsafe fn asked(&self) -> Result<Weight, Error> {
+    pub(super) unsafe fn asked(&self) -> Result<Weight, Error> {
         let (degree, rings) = ((self.degree, "options.degree"), (self.rings, "options.rings"));
         // SAFETY: handed on.
         unsafe { AskedWeight { weight: self.weight, degree, rings, model: self.model }.view() }

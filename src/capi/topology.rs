@@ -5,6 +5,7 @@ use super::status::{umb_error, umb_status};
 use super::types::{level_of, umb_faces, umb_simd};
 use super::versioned::{check_reserved, read_required, read_versioned, write_versioned};
 use crate::error::Error;
+use crate::simd::Level;
 use crate::topology::{Topology, status};
 use crate::view::boxed;
 use libc::size_t;
@@ -39,7 +40,15 @@ const _: () = {
 
 /// The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
 /// used from any number of threads at once.
+#[repr(transparent)]
 pub struct umb_topology(pub(super) Topology);
+
+impl umb_topology {
+    /// A topology that something else holds, as a handle.
+    pub(super) fn from_ref(topology: &Topology) -> *const umb_topology {
+        std::ptr::from_ref(topology).cast()
+    }
+}
 
 /// How a topology is built. All zero: the defaults.
 #[repr(C)]
@@ -54,6 +63,14 @@ pub struct umb_topology_options {
     pub simd: umb_simd,
     /// 0
     pub reserved: u32,
+}
+
+impl umb_topology_options {
+    /// Threads and level.
+    pub(super) fn how(&self) -> Result<(usize, Level), Error> {
+        check_reserved("umb_topology_options", offset_of!(umb_topology_options, reserved), self.reserved)?;
+        Ok((self.threads as usize, level_of(self.simd, "topology_options.simd")?))
+    }
 }
 
 /// What a mesh is made of, and what is wrong with it.
@@ -150,14 +167,11 @@ pub unsafe extern "C" fn umb_topology_create(
     // SAFETY: the header asks of the caller what these ask for.
     unsafe {
         guard(error, || {
-            let options = read_versioned(options)?;
-            let reserved = offset_of!(umb_topology_options, reserved);
-            check_reserved("umb_topology_options", reserved, options.reserved)?;
+            let (threads, level) = read_versioned(options)?.how()?;
             let faces = read_required(faces, "faces")?.view()?;
             if topology.is_null() {
                 return Err(Error::NullPointer { what: "topology" });
             }
-            let (threads, level) = (options.threads as usize, level_of(options.simd, "topology_options.simd")?);
             let built = Topology::with_threads(&faces, vertex_count, threads, level)?;
             topology.write_unaligned(Box::into_raw(boxed(umb_topology(built))?));
             Ok(())

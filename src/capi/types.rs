@@ -154,6 +154,8 @@ versioned! {
     umb_face_options: 48, 32;
     umb_normal_outputs: 72, 48;
     umb_face_outputs: 72, 48;
+    umb_creases: 48, 32;
+    umb_corner_outputs: 96, 64;
     umb_curvature_options: 120, 88;
     umb_curvature_outputs: 408, 272;
     umb_section_options: 136, 92;

@@ -6,7 +6,7 @@
 //!
 //! Cost: that of the vertex normals, and a copy of positions and of results.
 
-use super::cut::{CutMesh, Positions};
+use super::cut::CutMesh;
 use crate::error::Error;
 use crate::normals::{NormalOutputs, Weight, vertex_normals};
 use crate::parallel::Run;
@@ -26,7 +26,7 @@ pub struct CornerOutputs<'a> {
 ///
 /// # Errors
 /// [`Error::Size`] where counts do not fit; [`Error::NotApplicable`] for corners with a list of vertices; those of
-/// [`vertex_normals`], which name cut vertices.
+/// [`vertex_normals`], with the original vertex of a position that is not finite.
 pub fn corner_normals(
     cut: &CutMesh,
     points: &Points<'_>,
@@ -43,10 +43,21 @@ pub fn corner_normals(
             return Err(Error::NotApplicable { what: "corner normals of a list of vertices" });
         }
     }
-    match cut.positions(points)? {
-        Positions::F32(positions) => at_cut_vertices(cut, &positions[..].into(), weight, run, outputs),
-        Positions::F64(positions) => at_cut_vertices(cut, &positions[..].into(), weight, run, outputs),
-    }
+    let found = if points.is_double() {
+        let mut positions: Vec<[f64; 3]> = zeroed(cut.origins().len())?;
+        cut.copy(points, &positions.as_mut_slice().into())?;
+        at_cut_vertices(cut, &positions[..].into(), weight, run, outputs)
+    } else {
+        let mut positions: Vec<[f32; 3]> = zeroed(cut.origins().len())?;
+        cut.copy(points, &positions.as_mut_slice().into())?;
+        at_cut_vertices(cut, &positions[..].into(), weight, run, outputs)
+    };
+    found.map_err(|error| match error {
+        Error::NonFinitePosition { vertex } => {
+            Error::NonFinitePosition { vertex: cut.origins()[vertex as usize].into() }
+        }
+        other => other,
+    })
 }
 
 fn at_cut_vertices(
@@ -92,7 +103,6 @@ where
         status: asked.status.as_ref().map(StatusOutput::again),
     };
     vertex_normals(cut.topology(), positions, weight, run, &own)?;
-    drop(own);
     if let Some(output) = &asked.normal {
         for (vertex, normal) in normals.iter().enumerate() {
             output.write(vertex, normal.map(Into::into));

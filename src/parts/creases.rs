@@ -4,12 +4,13 @@
 //! direction, separates its faces in any case and is not asked about. A face without area has no normal, and no edge of it is sharp.
 //!
 //! Numerical notes: unit normals are those of [`face_normals`](crate::face_normals), in `f64`; angles are compared by
-//! the chord between the normals, which keeps its digits where the angle is small. Cost: linear in the number of corners, and a bisection of the marked edges for each.
+//! the chord between the normals, which keeps its digits where the angle is small; equal to 1e-12 of its square is
+//! not sharper. Cost: linear in the number of corners, and a bisection of the marked edges for each.
 
 use crate::error::{Error, filled, reserved};
 use crate::sweep::area_vector;
 use crate::topology::{Adjacency, NO_CORNER};
-use crate::view::{Coordinate, Faces, Index, PointArray, Points, StridedPoints, with_indices, zeroed};
+use crate::view::{Coordinate, Faces, Index, Indices, PointArray, Points, StridedPoints, with_indices, zeroed};
 use glam::DVec3;
 
 /// The largest angle between the normals of two faces that [`Creases::default`] takes for smooth: 30°.
@@ -20,7 +21,7 @@ pub const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 pub struct Creases<'a> {
     /// An edge is a crease if the normals of its two faces differ by more than this, in radians; from π on none is.
     pub angle: f64,
-    /// Pairs of vertices whose edges are creases, in any order; pairs that no edge joins mean nothing.
+    /// Pairs of vertices whose edges are creases, in any order and direction; pairs that no edge joins mean nothing.
     pub edges: &'a [[u32; 2]],
     /// A number for each face: the edge between two faces is a crease if theirs differ, or are 0 (as in OBJ files, where group 0
     /// is no group).
@@ -38,7 +39,7 @@ impl Creases<'_> {
     ///
     /// # Errors
     /// [`Error::OptionOutOfRange`] for an angle that is negative or no number; [`Error::Size`] for groups of another number
-    /// than faces; [`Error::NonFinitePosition`]; [`Error::OutOfMemory`].
+    /// than faces; [`Error::IndexOutOfRange`] for a marked edge; [`Error::OutOfMemory`].
     pub(crate) fn find(
         &self,
         faces: &Faces<'_>,
@@ -46,12 +47,17 @@ impl Creases<'_> {
         adjacency: &Adjacency,
         face_of: &[u32],
     ) -> Result<Vec<u8>, Error> {
-        if !(self.angle >= 0.0) {
-            return Err(Error::OptionOutOfRange { what: "angle" });
+        if self.angle.is_nan() || self.angle < 0.0 {
+            return Err(Error::OptionOutOfRange { what: "creases.angle" });
         }
         if let Some(found) = self.groups.map(<[u32]>::len).filter(|&found| found != faces.len()) {
-            return Err(Error::Size { what: "groups.count", found: found as u64, expected: faces.len() as u64 });
+            return Err(Error::Size {
+                what: "creases.group_count",
+                found: found as u64,
+                expected: faces.len() as u64,
+            });
         }
+        Indices::from(self.edges.as_flattened()).check_range("creases.edges", points.len())?;
         let mut creases: Vec<u8> = zeroed(face_of.len())?;
         if self.angle < std::f64::consts::PI {
             let normals = unit_normals(faces, points)?;
@@ -126,14 +132,15 @@ pub(crate) fn unit_normals(faces: &Faces<'_>, points: &Points<'_>) -> Result<Vec
 
 /// Compares angles between unit vectors with a given one.
 pub(crate) struct Sharp {
-    /// The squared length of the difference of two unit vectors at that angle.
+    /// The squared length of the difference of two unit vectors at that angle, and a little more.
     chord_squared: f64,
 }
 
 impl Sharp {
     pub fn than(angle: f64) -> Self {
         let chord = 2.0 * libm::sin(0.5 * angle.min(std::f64::consts::PI));
-        Sharp { chord_squared: chord * chord }
+        // Faces of a box meet at right angles, whatever the last digit says.
+        Sharp { chord_squared: chord * chord * (1.0 + 1e-12) }
     }
 
     /// Whether the angle between them is larger; not if one of them is zero.

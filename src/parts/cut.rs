@@ -17,13 +17,7 @@ use super::creases::{Creases, faces_of_corners};
 use crate::error::{Error, reserved};
 use crate::parallel::Run;
 use crate::topology::{Adjacency, NO_CORNER, Topology, has_three_corners};
-use crate::view::{Faces, Index, Points, with_indices, zeroed};
-
-/// Positions of cut vertices.
-pub(super) enum Positions {
-    F32(Vec<[f32; 3]>),
-    F64(Vec<[f64; 3]>),
-}
+use crate::view::{Faces, Index, Output, Points, with_indices, zeroed};
 
 /// A mesh cut open along its creases.
 #[derive(Debug)]
@@ -41,12 +35,7 @@ impl CutMesh {
     /// # Errors
     /// [`Error::IndexOutOfRange`], also for a vertex of a marked edge; [`Error::NonFinitePosition`]; [`Error::OptionOutOfRange`];
     /// [`Error::Size`]; [`Error::TooLarge`]; [`Error::OutOfMemory`].
-    pub fn new(
-        faces: &Faces<'_>,
-        points: &Points<'_>,
-        creases: &Creases<'_>,
-        run: &Run<'_>,
-    ) -> Result<Self, Error> {
+    pub fn new(faces: &Faces<'_>, points: &Points<'_>, creases: &Creases<'_>, run: &Run<'_>) -> Result<Self, Error> {
         let adjacency = Adjacency::new(faces, points.len())?;
         points.check_finite()?;
         let face_of = faces_of_corners(faces)?;
@@ -55,8 +44,7 @@ impl CutMesh {
             number(faces, indices, points.len(), &adjacency, &marked, &face_of)
         })?;
         drop((adjacency, marked, face_of));
-        let topology =
-            Topology::with_threads(&faces.with_indices(&corners), origins.len(), run.threads, run.level)?;
+        let topology = Topology::with_threads(&faces.with_indices(&corners), origins.len(), run.threads, run.level)?;
         Ok(CutMesh { topology, vertex_count: points.len(), corners, origins })
     }
 
@@ -75,22 +63,22 @@ impl CutMesh {
         &self.origins
     }
 
-    /// The positions of the cut vertices, in the scalar of the original ones.
-    pub(super) fn positions(&self, points: &Points<'_>) -> Result<Positions, Error> {
-        if points.len() != self.vertex_count {
-            let (found, expected) = (points.len() as u64, self.vertex_count as u64);
-            return Err(Error::Size { what: "points.count", found, expected });
+    /// Copies an element for each original vertex to each cut vertex that comes from it.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where counts do not fit.
+    pub fn copy(&self, points: &Points<'_>, output: &Output<'_>) -> Result<(), Error> {
+        let sizes =
+            [("points.count", points.len(), self.vertex_count), ("output.count", output.len(), self.origins.len())];
+        for (what, found, expected) in sizes {
+            if found != expected {
+                return Err(Error::Size { what, found: found as u64, expected: expected as u64 });
+            }
         }
-        let origins = self.origins.iter().map(|&vertex| points.get(vertex as usize));
-        Ok(if points.is_double() {
-            let mut positions = reserved(self.origins.len())?;
-            positions.extend(origins.map(|point| point.to_array()));
-            Positions::F64(positions)
-        } else {
-            let mut positions = reserved(self.origins.len())?;
-            positions.extend(origins.map(|point| point.to_array().map(|x| x as f32)));
-            Positions::F32(positions)
-        })
+        for (place, &vertex) in self.origins.iter().enumerate() {
+            output.write(place, points.get(vertex as usize).to_array());
+        }
+        Ok(())
     }
 }
 

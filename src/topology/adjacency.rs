@@ -24,7 +24,8 @@ impl Adjacency {
     pub fn new(faces: &Faces<'_>, vertex_count: usize) -> Result<Self, Error> {
         faces.indices().check_range("faces.indices", vertex_count)?;
         let limit = u32::MAX as u64 / 2;
-        for (what, found) in [("corners", faces.indices().len()), ("vertices", vertex_count), ("faces", faces.len())] {
+        for (what, found) in [("corners", faces.indices().len()), ("vertices", vertex_count), ("faces", faces.len())]
+        {
             if found as u64 > limit {
                 return Err(Error::TooLarge { what, found: found as u64, limit });
             }

@@ -16,6 +16,23 @@ OFFSET(umb_adaptive_model, evidence, 64);
 OFFSET(umb_adaptive_model, sample, 80);
 OFFSET(umb_adaptive_model, reserved, 84);
 
+SIZE(umb_corner_outputs, 96);
+OFFSET(umb_corner_outputs, struct_size, 0);
+OFFSET(umb_corner_outputs, reserved, 4);
+OFFSET(umb_corner_outputs, corner, 8);
+OFFSET(umb_corner_outputs, normal, 32);
+OFFSET(umb_corner_outputs, sum, 56);
+OFFSET(umb_corner_outputs, status, 80);
+
+SIZE(umb_creases, 48);
+OFFSET(umb_creases, struct_size, 0);
+OFFSET(umb_creases, reserved, 4);
+OFFSET(umb_creases, angle, 8);
+OFFSET(umb_creases, edges, 16);
+OFFSET(umb_creases, edge_count, 24);
+OFFSET(umb_creases, groups, 32);
+OFFSET(umb_creases, group_count, 40);
+
 SIZE(umb_curvature_options, 120);
 OFFSET(umb_curvature_options, struct_size, 0);
 OFFSET(umb_curvature_options, method, 4);

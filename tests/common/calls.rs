@@ -24,14 +24,19 @@ pub enum Call {
     EdgeSections(umb_weight),
     DirectionSections(umb_weight),
     Polyline,
+    Cut,
+    Corners(umb_weight),
+    CornersOnce(umb_weight),
 }
 
 /// All of them; weights that need no code of their own in a call are left to one.
 pub fn all() -> Vec<Call> {
     let weights = || ALL.into_iter().chain([UMB_WEIGHT_ADAPTIVE_JET, UMB_WEIGHT_TILTED_SECTIONS]);
     let some = [UMB_WEIGHT_CONFORMAL, UMB_WEIGHT_JET, UMB_WEIGHT_ADAPTIVE_JET, UMB_WEIGHT_TILTED_SECTIONS];
+    let creases = [Call::Cut, Call::Corners(UMB_WEIGHT_ANGLE), Call::CornersOnce(UMB_WEIGHT_CONFORMAL)];
     [Call::Create, Call::Stats, Call::Valence, Call::Learn, Call::FaceNormals, Call::Polyline]
         .into_iter()
+        .chain(creases)
         .chain(weights().map(Call::Normals))
         .chain([Call::OneShot(UMB_WEIGHT_CONFORMAL), Call::OneShot(UMB_WEIGHT_ADAPTIVE_JET)])
         .chain(METHODS.map(Call::Curvatures))
@@ -44,12 +49,13 @@ pub fn all() -> Vec<Call> {
 impl Call {
     /// Whether it takes a `umb_run`, and so threads, a list and progress.
     pub fn runs(self) -> bool {
-        !matches!(self, Call::Create | Call::Stats | Call::Valence)
+        !matches!(self, Call::Create | Call::Stats | Call::Valence | Call::Cut)
     }
 
     /// Whether it takes a list of vertices.
     pub fn takes_list(self) -> bool {
-        self.runs() && !matches!(self, Call::FaceNormals | Call::Polyline | Call::Learn)
+        let none = matches!(self, Call::FaceNormals | Call::Polyline | Call::Learn);
+        self.runs() && !none && !matches!(self, Call::Corners(_) | Call::CornersOnce(_))
     }
 }
 
@@ -58,13 +64,35 @@ pub struct Fixture {
     pub mesh: Mesh,
     single: Vec<[f32; 3]>,
     handle: Handle,
+    cut: Cut,
     directions: Vec<[f64; 3]>,
+}
+
+/// A mesh cut along its creases that frees itself.
+struct Cut(*mut umb_cut);
+
+impl Cut {
+    fn new(mesh: &Mesh) -> Cut {
+        let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|point| point.map(finite)).collect();
+        let (mut cut, mut error) = (std::ptr::null_mut(), zeroed());
+        let (faces, points, null) = (faces(mesh), points(&positions), std::ptr::null());
+        let status = unsafe { umb_cut_create(&faces, &points, null, std::ptr::null(), &mut cut, &mut error) };
+        assert_eq!(status, UMB_OK, "{}", message(&error));
+        Cut(cut)
+    }
+}
+
+impl Drop for Cut {
+    fn drop(&mut self) {
+        unsafe { umb_cut_destroy(self.0) };
+    }
 }
 
 impl Fixture {
     pub fn new(mesh: Mesh) -> Self {
         let directions = vec![[1.0, 0.3, -0.2], [0.1, -1.0, 0.4]];
-        Fixture { single: mesh.single(), handle: Handle::new(&mesh), directions, mesh }
+        Fixture { single: mesh.single(), handle: Handle::new(&mesh), cut: Cut::new(&mesh), directions, mesh }
     }
 }
 
@@ -114,10 +142,12 @@ pub struct Prepared<'a> {
     curvature_outputs: umb_curvature_outputs,
     section_outputs: umb_section_outputs,
     polyline_outputs: umb_polyline_outputs,
+    corner_outputs: umb_corner_outputs,
     pub model: umb_adaptive_model,
     stats: umb_topology_stats,
     valence: usize,
     handle: *mut umb_topology,
+    cut: *mut umb_cut,
     pub error: umb_error,
     /// What the outputs point to.
     arrays: Vec<Vec<f64>>,
@@ -163,10 +193,12 @@ impl<'a> Prepared<'a> {
             curvature_outputs: zeroed(),
             section_outputs: zeroed(),
             polyline_outputs: zeroed(),
+            corner_outputs: zeroed(),
             model: zeroed(),
             stats: zeroed(),
             valence: usize::MAX,
             handle: std::ptr::null_mut(),
+            cut: std::ptr::null_mut(),
             error: zeroed(),
             arrays: vec![],
         };
@@ -180,7 +212,7 @@ impl<'a> Prepared<'a> {
             *umb_topology_ring_offsets(fixture.handle.0).add(mesh.positions.len()) as usize
         });
         match call {
-            Call::Create | Call::Stats | Call::Valence | Call::Learn => {}
+            Call::Create | Call::Stats | Call::Valence | Call::Learn | Call::Cut => {}
             Call::Normals(weight) | Call::OneShot(weight) => {
                 prepared.normal_options.weight = weight;
                 prepared.normal_outputs.normal = prepared.array(3 * vertices);
@@ -224,6 +256,20 @@ impl<'a> Prepared<'a> {
                 prepared.polyline_outputs.length_parabola = prepared.array(vertices);
                 prepared.polyline_outputs.symmetric_parabola = prepared.array(vertices);
                 prepared.polyline_outputs.status = prepared.bytes(vertices);
+            }
+            Call::Corners(weight) => {
+                let cut_vertices = unsafe { umb_cut_vertex_count(fixture.cut.0) };
+                prepared.normal_options.weight = weight;
+                prepared.corner_outputs.corner = prepared.array(3 * mesh.indices.len());
+                prepared.corner_outputs.normal = prepared.array(3 * cut_vertices);
+                prepared.corner_outputs.sum = prepared.array(3 * cut_vertices);
+                prepared.corner_outputs.status = prepared.bytes(cut_vertices);
+            }
+            Call::CornersOnce(weight) => {
+                prepared.normal_options.weight = weight;
+                prepared.corner_outputs.corner = prepared.array(3 * mesh.indices.len());
+                // A status that the call does not have: the last array holds bytes.
+                let _ = prepared.bytes(0);
             }
         }
         prepared
@@ -280,6 +326,18 @@ impl<'a> Prepared<'a> {
                 Call::DirectionSections(_) => {
                     umb_direction_sections(topology, points, &self.section_options, &self.section_outputs, error)
                 }
+                Call::Cut => {
+                    let null = std::ptr::null();
+                    umb_cut_create(&self.faces, points, null, &self.topology_options, &mut self.cut, error)
+                }
+                Call::Corners(_) => {
+                    let (options, outputs) = (&self.normal_options, &self.corner_outputs);
+                    umb_corner_normals(self.fixture.cut.0, points, options, outputs, error)
+                }
+                Call::CornersOnce(_) => {
+                    let (options, corner) = (&self.normal_options, &self.corner_outputs.corner);
+                    umb_corner_normals_from_faces(&self.faces, points, std::ptr::null(), options, corner, error)
+                }
                 Call::Polyline => {
                     umb_polyline_curvatures(&self.polyline, &self.polyline_options, &self.polyline_outputs, error)
                 }
@@ -295,7 +353,10 @@ impl<'a> Prepared<'a> {
     }
 
     pub fn free(&mut self) {
-        unsafe { umb_topology_destroy(std::mem::replace(&mut self.handle, std::ptr::null_mut())) };
+        unsafe {
+            umb_topology_destroy(std::mem::replace(&mut self.handle, std::ptr::null_mut()));
+            umb_cut_destroy(std::mem::replace(&mut self.cut, std::ptr::null_mut()));
+        }
     }
 
     /// All that the call may have written, bit by bit.
@@ -310,7 +371,11 @@ impl<'a> Prepared<'a> {
     /// Whether nothing has been written.
     pub fn is_untouched(&self) -> bool {
         let arrays = self.arrays.iter().flatten().all(|x| x.to_bits() == UNTOUCHED.to_bits());
-        arrays && self.model.edge_length == 0.0 && self.stats.vertex_count == 0 && self.handle.is_null()
+        arrays
+            && self.model.edge_length == 0.0
+            && self.stats.vertex_count == 0
+            && self.handle.is_null()
+            && self.cut.is_null()
     }
 
     /// Makes all outputs as they were before the call.
