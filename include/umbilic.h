@@ -57,6 +57,8 @@
 #define UMB_NORMAL_OUTPUTS_INIT UMB_INIT_(umb_normal_outputs)
 #define UMB_FACE_OPTIONS_INIT UMB_INIT_(umb_face_options)
 #define UMB_FACE_OUTPUTS_INIT UMB_INIT_(umb_face_outputs)
+#define UMB_CREASES_INIT UMB_INIT_(umb_creases)
+#define UMB_CORNER_OUTPUTS_INIT UMB_INIT_(umb_corner_outputs)
 #define UMB_CURVATURE_OPTIONS_INIT UMB_INIT_(umb_curvature_options)
 #define UMB_CURVATURE_OUTPUTS_INIT UMB_INIT_(umb_curvature_outputs)
 #define UMB_SECTION_OPTIONS_INIT UMB_INIT_(umb_section_options)
@@ -139,6 +141,13 @@
  * along the polyline that does not took its place; if there is none, the curvatures are 0.
  */
 #define UMB_POLYLINE_COINCIDENT 4
+
+/**
+ * A mesh cut open along its creases: a vertex for each run of faces around a vertex that no crease divides. Whatever is computed over
+ * `umb_cut_topology` stops at creases: normals become corner normals, and fits and curvatures of one side take nothing from the
+ * other. A `const umb_cut *` may be used from any number of threads at once.
+ */
+typedef struct umb_cut umb_cut;
 
 /**
  * The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
@@ -991,6 +1000,75 @@ typedef struct umb_polyline_outputs {
 } umb_polyline_outputs;
 
 /**
+ * Which edges are creases; an edge is one if any field says so. All zero: those that are sharper than 30 degrees.
+ *
+ * An edge with one face, with more than two, or whose two faces run through it in the same direction separates its faces in any
+ * case.
+ */
+typedef struct umb_creases {
+  /**
+   * `sizeof(umb_creases)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * An edge is a crease if the normals of its two faces differ by more than this angle, in radians; 0 stands for pi/6, and from
+   * pi on none is one by its angle. No edge of a face without area is.
+   */
+  double angle;
+  /**
+   * Vertices of edges that are creases, two for each, in any order; pairs that no edge joins mean nothing. May be null.
+   */
+  const uint32_t *edges;
+  /**
+   * The number of pairs.
+   */
+  size_t edge_count;
+  /**
+   * The smoothing group of each face, `#F`: the edge between two faces is a crease if theirs differ or are 0, which is no group.
+   * Null: there are none.
+   */
+  const uint32_t *groups;
+  /**
+   * The number of faces, or 0 if `groups` is null.
+   */
+  size_t group_count;
+} umb_creases;
+
+/**
+ * Where corner normals go; any of them may be left out.
+ */
+typedef struct umb_corner_outputs {
+  /**
+   * `sizeof(umb_corner_outputs)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * A unit normal for each corner, `#C x 3`, in the order of the indices of the faces; (0, 0, 0) where there is none.
+   */
+  struct umb_output corner;
+  /**
+   * The same normals, each once: a unit normal for each vertex of the cut mesh, to which `umb_cut_corners` are the index.
+   */
+  struct umb_output normal;
+  /**
+   * By vertex of the cut mesh: see `sum` of `umb_normal_outputs`.
+   */
+  struct umb_output sum;
+  /**
+   * `UMB_VERTEX_` bits by vertex of the cut mesh, on which a crease is a boundary.
+   */
+  struct umb_status_output status;
+} umb_corner_outputs;
+
+/**
  * Success.
  */
 #define UMB_OK 0
@@ -1744,6 +1822,158 @@ umb_status umb_polyline_curvatures(const struct umb_polyline *polyline,
                                    const struct umb_polyline_options *options,
                                    const struct umb_polyline_outputs *outputs,
                                    struct umb_error *error);
+
+/**
+ * Cuts a mesh along its creases.
+ *
+ * Corners at a vertex stay together if they can be reached from each other across edges at the vertex that two faces share (as
+ * `umb_topology_create` joins them) and that are no creases. So a vertex with several fans is cut between them, and a crease that ends
+ * in a smooth part does not cut the vertex at its end. Vertices of the cut mesh are numbered by the vertex they come from, those of one by
+ * their first corners; a vertex without faces keeps one. So without creases on a manifold mesh, numbers stay what they are.
+ *
+ * Positions are looked at for the angles only: as they move, the cut stays until the caller makes another.
+ *
+ * Cost: linear in the number of corners, on one thread but for the topology. Held are the topology and 4 bytes a corner and a
+ * vertex.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param creases which edges to cut; may be null
+ * @param options how to build the topology; may be null
+ * @param cut receives the handle; destroy it with `umb_cut_destroy`
+ * @param error may be null
+ *
+ * Errors: those of `umb_topology_create`; `UMB_ERROR_STRIDE`, `_INDEX_OUT_OF_RANGE` also for `creases.edges` (element: place in it),
+ * `_NON_FINITE` (element: vertex), `_OPTION_OUT_OF_RANGE` for an angle that is negative or NaN.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_cut_create(const struct umb_faces *faces,
+                          const struct umb_points *points,
+                          const struct umb_creases *creases,
+                          const struct umb_topology_options *options,
+                          struct umb_cut **cut,
+                          struct umb_error *error);
+
+/**
+ * Frees a cut mesh, its topology included; null is fine.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+void umb_cut_destroy(struct umb_cut *cut);
+
+/**
+ * The topology of the cut mesh, for every call that takes one; it lives as long as the cut mesh and must not be destroyed. Null for
+ * null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const struct umb_topology *umb_cut_topology(const struct umb_cut *cut);
+
+/**
+ * The number of vertices of the cut mesh; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_cut_vertex_count(const struct umb_cut *cut);
+
+/**
+ * The number of corners, those of ignored faces included; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_cut_corner_count(const struct umb_cut *cut);
+
+/**
+ * The vertex of the cut mesh at each corner, `#C` numbers in the handle's memory: the faces of the cut mesh, with the offsets or the arity
+ * of the original ones. Null for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_cut_corners(const struct umb_cut *cut);
+
+/**
+ * The original vertex of each vertex of the cut mesh, ascending, in the handle's memory; null for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_cut_origins(const struct umb_cut *cut);
+
+/**
+ * Copies an element for each original vertex, positions for example, to each vertex of the cut mesh that comes from it: what calls
+ * over `umb_cut_topology` take.
+ *
+ * @param cut the handle
+ * @param points an element for each original vertex
+ * @param output receives an element for each vertex of the cut mesh; must not overlap `points`
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_cut_points(const struct umb_cut *cut,
+                          const struct umb_points *points,
+                          const struct umb_output *output,
+                          struct umb_error *error);
+
+/**
+ * Computes a unit normal for each corner of each face: smooth where faces go on, split at creases.
+ *
+ * They are the vertex normals of the cut mesh, by any weight: an open run of faces counts as one at a boundary does. Where nothing is cut, they are those of
+ * `umb_vertex_normals`, to the bit. `UMB_WEIGHT_ANGLE` is what Blender takes for corner normals, and what those expect who bake
+ * or shade with MikkTSpace: it makes tangents, and takes normals as they are given.
+ *
+ * A renderer that has an index for each attribute takes `normal` with `umb_cut_corners`; one that has a single index
+ * takes `umb_cut_corners` as that, `normal`, and positions by `umb_cut_points`; others take `corner`.
+ *
+ * @param cut the handle
+ * @param points the positions of the original vertices; read only during the call
+ * @param options as for `umb_vertex_normals`; a list of vertices is one of the cut mesh, and goes without `corner`. May be null
+ * @param outputs where results go
+ * @param error may be null; the element of a position that is not finite is the original vertex
+ *
+ * Errors: those of `umb_vertex_normals`; `_NOT_APPLICABLE` for `corner` with a list.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_corner_normals(const struct umb_cut *cut,
+                              const struct umb_points *points,
+                              const struct umb_normal_options *options,
+                              const struct umb_corner_outputs *outputs,
+                              struct umb_error *error);
+
+/**
+ * Computes corner normals once, straight from faces: cuts the mesh for the call and forgets it. The results are those of
+ * `umb_corner_normals`, to the bit.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param creases which edges to cut; may be null
+ * @param options as for `umb_vertex_normals`, without a list; may be null
+ * @param corner receives a unit normal for each corner, `#C x 3`, in the order of the indices of the faces
+ * @param error may be null
+ *
+ * Errors: those of `umb_cut_create` and `umb_corner_normals`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_corner_normals_from_faces(const struct umb_faces *faces,
+                                         const struct umb_points *points,
+                                         const struct umb_creases *creases,
+                                         const struct umb_normal_options *options,
+                                         const struct umb_output *corner,
+                                         struct umb_error *error);
 
 /**
  * The version of the library, `"0.1.0"`. Static.

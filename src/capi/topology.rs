@@ -40,7 +40,8 @@ const _: () = {
 
 /// The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
 /// used from any number of threads at once.
-#[repr(transparent)]
+// Not in documentation, and so not seen by cbindgen, to which the struct is opaque.
+#[cfg_attr(not(doc), repr(transparent))]
 pub struct umb_topology(pub(super) Topology);
 
 impl umb_topology {
