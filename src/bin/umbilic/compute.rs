@@ -6,7 +6,7 @@ use crate::quantity::Quantity;
 use crate::read::PolylineFile;
 use std::path::Path;
 use umbilic::{
-    AdaptiveModel, CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points,
+    AdaptiveModel, Creases, CurvatureKind, CurvatureOptions, CurvatureOutputs, Error, Faces, NormalOutputs, Points,
     PolylineOutputs, PolylinePoints, Run, Section, Topology, Weight, status,
 };
 
@@ -41,6 +41,27 @@ pub fn vertex_normals(
         umbilic::vertex_normals(topology, &Points::from(&mesh.positions), weight, run, &outputs)
     })?;
     Ok(found)
+}
+
+/// A mesh cut along its creases.
+pub struct CutMesh {
+    /// How it is cut, and its one-rings.
+    pub parts: umbilic::CutMesh,
+    /// The faces over the cut vertices.
+    pub mesh: PolygonMesh,
+}
+
+/// Cuts a mesh at edges sharper than `angle`, in radians.
+pub fn cut(mesh: &PolygonMesh, angle: f64, threads: usize) -> Result<CutMesh, Error> {
+    let (faces, points) = (Faces::polygons(&mesh.indices, &mesh.offsets)?, Points::from(&mesh.positions));
+    let run = Run { threads, ..Run::default() };
+    let parts = umbilic::CutMesh::new(&faces, &points, &Creases { angle, ..Creases::default() }, &run)?;
+    let cut = PolygonMesh {
+        positions: parts.origins().iter().map(|&vertex| mesh.positions[vertex as usize]).collect(),
+        offsets: mesh.offsets.clone(),
+        indices: parts.corners().to_vec(),
+    };
+    Ok(CutMesh { parts, mesh: cut })
 }
 
 /// Runs a computation with a progress bar. `cost` is as in [`progress::computing`].

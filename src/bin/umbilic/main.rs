@@ -43,6 +43,7 @@ Examples:
   umbilic generate torus -o torus.ply
   umbilic info torus.ply
   umbilic normals torus.ply -o with-normals.ply
+  umbilic corners bracket.stl -o split-at-sharp-edges.ply
   umbilic curvature torus.ply -o with-curvatures.ply
   umbilic render torus.ply -o torus.png --color mean
   umbilic polyline outline.txt --closed

@@ -123,6 +123,12 @@ pub fn angle(text: &str) -> Result<f64, String> {
     degrees.filter(|degrees| degrees.is_finite()).ok_or_else(|| "expected a number of degrees".to_owned())
 }
 
+/// The angle of a crease, in degrees.
+pub fn crease_angle(text: &str) -> Result<f64, String> {
+    let degrees = angle(text)?;
+    if degrees >= 0.0 { Ok(degrees) } else { Err("expected an angle of 0 or more".to_owned()) }
+}
+
 impl ValueEnum for UpAxis {
     fn value_variants<'a>() -> &'a [Self] {
         &[UpAxis::Y, UpAxis::Z]

@@ -1,5 +1,6 @@
 //! The commands, each with its arguments and a `run` that returns what to print.
 
+mod corners;
 mod curvature;
 mod generate;
 mod info;
@@ -16,6 +17,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 #[derive(Subcommand)]
 pub enum Command {
     Normals(normals::Normals),
+    Corners(corners::Corners),
     Curvature(curvature::Curvature),
     Polyline(polyline::Polyline),
     Info(info::Info),
@@ -28,6 +30,7 @@ impl Command {
     pub fn run(&self) -> Outcome {
         match self {
             Command::Normals(command) => command.run(),
+            Command::Corners(command) => command.run(),
             Command::Curvature(command) => command.run(),
             Command::Polyline(command) => command.run(),
             Command::Info(command) => command.run(),

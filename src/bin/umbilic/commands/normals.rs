@@ -43,7 +43,7 @@ pub struct Normals {
 }
 
 /// What is counted of the vertices' statuses: a key, words and the bit.
-const COUNTS: [(&str, &str, u8); 7] = [
+pub(super) const COUNTS: [(&str, &str, u8); 7] = [
     ("boundary", "boundary vertices", status::BOUNDARY),
     ("non_manifold", "non-manifold vertices", status::NON_MANIFOLD),
     ("winding", "vertices of faces that disagree", status::WINDING),
