@@ -165,3 +165,52 @@ pub(super) fn merge_small(mut regions: Regions, mut borders: Borders, smallest: 
     }
     Ok(sets)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Which regions are one after merging those of fewer than three faces, told by the smallest.
+    fn merged(regions: &[(u8, u32)], edges: &[(u32, u32, f64, bool)]) -> Vec<u32> {
+        let mut borders = Borders::new(regions.len(), edges.len()).unwrap();
+        for &(a, b, length, smooth) in edges {
+            borders.add(a, b, length, smooth);
+        }
+        let all = Regions {
+            class: regions.iter().map(|region| region.0).collect(),
+            faces: regions.iter().map(|region| region.1).collect(),
+            area: vec![1.0; regions.len()],
+        };
+        let mut sets = merge_small(all, borders, &Smallest { faces: 3, area: 0.0 }).unwrap();
+        (0..regions.len() as u32).map(|region| sets.root(region)).collect()
+    }
+
+    #[test]
+    fn smooth_then_class_then_length_then_smallest_face() {
+        let regions = [(1, 9), (2, 9), (1, 9), (1, 2)];
+        let all = |smooth: [bool; 3], lengths: [f64; 3]| {
+            let edges: Vec<_> = (0..3).map(|i| (i as u32, 3, lengths[i], smooth[i])).collect();
+            merged(&regions, &edges)[3]
+        };
+        assert_eq!(all([false, true, false], [9.0, 1.0, 9.0]), 1);
+        assert_eq!(all([true, true, true], [1.0, 9.0, 2.0]), 2);
+        assert_eq!(all([true, true, false], [1.0, 9.0, 9.0]), 0);
+        assert_eq!(all([false, false, false], [1.0, 9.0, 2.0]), 2);
+        assert_eq!(all([true, true, true], [2.0, 9.0, 2.0]), 0);
+        // Lengths add up.
+        let edges = [(0, 3, 2.0, true), (2, 3, 1.5, true), (3, 2, 1.5, true)];
+        assert_eq!(merged(&regions, &edges), [0, 1, 2, 2]);
+    }
+
+    #[test]
+    fn the_smallest_goes_first_and_grows() {
+        // Of the two, one face joins two, which are then not too small any more, and stay what they were.
+        assert_eq!(merged(&[(1, 9), (2, 2), (3, 1)], &[(0, 1, 9.0, true), (1, 2, 1.0, true)]), [0, 1, 1]);
+        // In a chain each ends in a region that is large enough; alone it stays.
+        let chain = merged(
+            &[(1, 1), (2, 1), (3, 1), (4, 1), (5, 1)],
+            &[(0, 1, 1.0, true), (1, 2, 1.0, true), (3, 2, 1.0, true)],
+        );
+        assert_eq!(chain, [0, 0, 0, 0, 4]);
+    }
+}

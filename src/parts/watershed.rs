@@ -144,18 +144,23 @@ impl Flood<'_> {
         }
     }
 
-    /// Gives the basin of each face in the queue, from a place on, to its neighbours of the same height that have none; these go
-    /// to the end of the queue.
-    fn spread(&mut self, mut place: usize) {
-        while let Some(&face) = self.queue.get(place) {
-            let graph = self.graph;
-            for other in graph.neighbours(face as usize) {
-                if self.basins[other as usize] == DRY && self.heights[other as usize] == self.heights[face as usize] {
-                    self.basins[other as usize] = self.basins[face as usize];
-                    self.queue.push(other);
+    /// Gives the basin of the faces in the queue, from a place on, to those of the same height that are connected to them and have none:
+    /// first to their neighbours, then to the neighbours of these. Where two come to a face at once, the lower face has it.
+    fn spread(&mut self, mut start: usize) {
+        while start < self.queue.len() {
+            let end = self.queue.len();
+            self.queue[start..].sort_unstable();
+            for place in start..end {
+                let (graph, face) = (self.graph, self.queue[place]);
+                for other in graph.neighbours(face as usize) {
+                    let same = self.heights[other as usize] == self.heights[face as usize];
+                    if same && self.basins[other as usize] == DRY {
+                        self.basins[other as usize] = self.basins[face as usize];
+                        self.queue.push(other);
+                    }
                 }
             }
-            place += 1;
+            start = end;
         }
     }
 

@@ -154,8 +154,7 @@ pub fn cone_on_cylinder(columns: usize) -> Solid {
 }
 
 pub fn stepped_shaft(columns: usize) -> Solid {
-    let profile =
-        [[0.0, 0.0], [0.6, 0.0], [0.6, 1.0], [1.0, 1.0], [1.0, 2.0], [0.5, 2.0], [0.5, 3.0], [0.0, 3.0]];
+    let profile = [[0.0, 0.0], [0.6, 0.0], [0.6, 1.0], [1.0, 1.0], [1.0, 2.0], [0.5, 2.0], [0.5, 3.0], [0.0, 3.0]];
     lathe("stepped shaft", &profile, columns)
 }
 
