@@ -93,6 +93,13 @@ pub enum Error {
         /// Its index.
         index: u64,
     },
+    /// A given scalar that is NaN or infinite.
+    NonFiniteScalar {
+        /// The array.
+        what: &'static str,
+        /// Its index.
+        index: u64,
+    },
     /// An output or an option that the method asked for does not have.
     NotApplicable {
         /// The output or option.
@@ -128,7 +135,7 @@ impl Error {
             Error::IndexOutOfRange { position, .. } => Some(position),
             Error::NoSuchElement { index, .. } => Some(index),
             Error::NonFinitePosition { vertex } | Error::NonFiniteNormal { vertex } => Some(vertex),
-            Error::NonFiniteDirection { index } => Some(index),
+            Error::NonFiniteDirection { index } | Error::NonFiniteScalar { index, .. } => Some(index),
             _ => None,
         }
     }
@@ -168,6 +175,7 @@ impl fmt::Display for Error {
             Error::NonFinitePosition { vertex } => write!(out, "the position of vertex {vertex} is not finite"),
             Error::NonFiniteNormal { vertex } => write!(out, "the normal given for vertex {vertex} is not finite"),
             Error::NonFiniteDirection { index } => write!(out, "direction {index} is not finite"),
+            Error::NonFiniteScalar { what, index } => write!(out, "{what}[{index}] is not finite"),
             Error::NotApplicable { what } => write!(out, "{what} is nothing that the method has"),
             Error::OptionOutOfRange { what } => write!(out, "{what} is outside its range"),
             Error::TooLarge { what, found, limit } => write!(out, "{found} {what}: the limit is {limit}"),

@@ -44,7 +44,11 @@ pub use normals::{
     vertex_normals_from_faces,
 };
 pub use parallel::Run;
-pub use parts::{CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, corner_normals};
+pub use parts::{
+    CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, NO_SEGMENT, RegionOptions, SHAPE_TOLERANCE, ScalarField,
+    Segmentation, ShapeClass, corner_normals, feature_segmentation, region_growing, shape_classes, shape_tolerance,
+    watershed,
+};
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};
-pub use view::{Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, StatusOutput};
+pub use view::{Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, Scalars, StatusOutput};

@@ -90,7 +90,8 @@ impl Failure {
                 Error::IndexOutOfRange { .. } | Error::NoSuchElement { .. } => UMB_ERROR_INDEX_OUT_OF_RANGE,
                 Error::NonFinitePosition { .. }
                 | Error::NonFiniteNormal { .. }
-                | Error::NonFiniteDirection { .. } => UMB_ERROR_NON_FINITE,
+                | Error::NonFiniteDirection { .. }
+                | Error::NonFiniteScalar { .. } => UMB_ERROR_NON_FINITE,
                 Error::NotApplicable { .. } => UMB_ERROR_NOT_APPLICABLE,
                 Error::OptionOutOfRange { .. } => UMB_ERROR_OPTION_OUT_OF_RANGE,
                 Error::TooLarge { .. } => UMB_ERROR_TOO_LARGE,

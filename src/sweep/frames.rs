@@ -153,6 +153,12 @@ impl AreaVector {
     pub(crate) fn in_mesh_units(&self) -> DVec3 {
         self.twice * 0.5 / self.scale / self.scale
     }
+
+    /// The area where lengths are multiplied by `unit`, a power of two.
+    pub(crate) fn area(&self, unit: f64) -> f64 {
+        let steps = unit / self.scale;
+        self.twice.length() * 0.5 * steps * steps
+    }
 }
 
 /// The area vector of the polygon with the given corners; none where it vanishes.

@@ -13,6 +13,7 @@ mod points;
 mod polyline;
 mod ring_table;
 mod rings;
+mod scalars;
 mod slots;
 mod threads;
 
@@ -27,6 +28,7 @@ pub(crate) use polyline::PolylineArray;
 pub use polyline::PolylinePoints;
 pub(crate) use ring_table::{RingPart, RingTable};
 pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
+pub use scalars::Scalars;
 pub(crate) use slots::{BLOCK, Put, SLOTS, Slots, SlotsPart};
 pub(crate) use threads::{for_each_part, is_quiet, set_quiet, with_threads};
 

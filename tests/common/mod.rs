@@ -17,6 +17,8 @@ pub mod oracle;
 pub mod outputs;
 pub mod random;
 pub mod real;
+pub mod segment_oracle;
+pub mod solids;
 
 pub use random::Random;
 

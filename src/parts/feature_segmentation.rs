@@ -1,0 +1,58 @@
+//! Segmentation along feature edges: faces that meet are in one segment unless the edge between them is a crease.
+//!
+//! Input is any mesh; which edges are creases says [`Creases`]. A segment is a connected component of the faces over all edges that are no
+//! creases, found with disjoint sets (B. A. Galler, M. J. Fisher, "An improved equivalence algorithm", Communications of the ACM 7 (1964)).
+//! So a crease that ends inside a smooth part separates nothing.
+//!
+//! Faces that do not meet (an edge with one face, with more than two, or with two of the same direction) are not joined there. A face without
+//! area has no normal; since it would join the two sides of any crease that it lies on, it is given that of a neighbour, and its edges are
+//! creases where the angle between the normals so completed is too large.
+//!
+//! Numerical notes: angles are those of [`Creases`]. Cost: linear in the number of corners but for the inverse Ackermann function.
+
+use super::creases::{Creases, faces_of_corners};
+use super::face_graph::{FaceGraph, report, report_end, sharp_beyond};
+use super::segmentation::Segmentation;
+use super::sets::Sets;
+use crate::error::Error;
+use crate::parallel::Run;
+use crate::topology::Adjacency;
+use crate::view::{Faces, Points};
+
+/// Cuts a mesh into the parts that creases bound. [`Run::vertices`] is ignored, and so are threads.
+///
+/// # Errors
+/// [`Error::IndexOutOfRange`]; [`Error::NonFinitePosition`]; [`Error::OptionOutOfRange`] and [`Error::Size`] for creases;
+/// [`Error::TooLarge`]; [`Error::Cancelled`]; [`Error::OutOfMemory`].
+pub fn feature_segmentation(
+    faces: &Faces<'_>,
+    points: &Points<'_>,
+    creases: &Creases<'_>,
+    mut run: Run<'_>,
+) -> Result<Segmentation, Error> {
+    let sharp = sharp_beyond(creases.angle)?;
+    report(&mut run, 0.0)?;
+    let adjacency = Adjacency::new(faces, points.len())?;
+    points.check_finite()?;
+    let face_of = faces_of_corners(faces)?;
+    report(&mut run, 0.3)?;
+    let marked = creases.find(faces, points, &adjacency, &face_of)?;
+    let graph = FaceGraph::with(faces, &adjacency, &face_of)?;
+    drop((adjacency, face_of));
+    report(&mut run, 0.6)?;
+    let normals = graph.normals(points)?;
+    report(&mut run, 0.8)?;
+    let mut sets = Sets::new(faces.len())?;
+    graph.for_each_edge(|corner, face, other| {
+        let smooth = marked[corner] == 0
+            && (creases.angle >= std::f64::consts::PI
+                || !sharp.is_between(normals[face as usize], normals[other as usize]));
+        if smooth {
+            sets.join(face, other);
+        }
+    });
+    drop((marked, normals));
+    let found = Segmentation::new(&graph, points.len(), |face| sets.root(face as u32))?;
+    report_end(&mut run);
+    Ok(found)
+}
