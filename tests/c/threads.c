@@ -68,7 +68,7 @@ int main(int count, char **arguments) {
   if (apart) work(&library, NULL, &meshes[0], WITHOUT_HANDLE, 1);
   /* The first calls of the process, so that the threads race to whatever is set up once. */
   race(&meshes[0], NULL, 1);
-  for (size_t i = 0; i < 3; i++) {
+  for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
     umb_topology *topology = topology_of(&meshes[i], 0);
     race(&meshes[i], topology, rounds);
     umb_topology_destroy(topology);
