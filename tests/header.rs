@@ -13,9 +13,21 @@ fn header_is_up_to_date() {
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).unwrap();
     // The files in the order a reader wants them.
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for module in
-        ["status", "types", "topology", "adaptive", "normals", "curvature", "sections", "polyline", "cut", "version"]
-    {
+    for module in [
+        "status",
+        "types",
+        "topology",
+        "adaptive",
+        "normals",
+        "curvature",
+        "sections",
+        "polyline",
+        "cut",
+        "affected",
+        "shape",
+        "segmentation",
+        "version",
+    ] {
         builder = builder.with_src(root().join(format!("src/capi/{module}.rs")));
     }
     let mut generated = Vec::new();
@@ -46,9 +58,21 @@ fn header_has_the_crate_version() {
 #[test]
 fn every_function_of_the_library_is_declared() {
     let header = std::fs::read_to_string(root().join("include/umbilic.h")).unwrap();
-    let sources =
-        ["status", "topology", "adaptive", "normals", "sections", "curvature", "polyline", "cut", "version"]
-            .map(|module| std::fs::read_to_string(root().join(format!("src/capi/{module}.rs"))).unwrap());
+    let sources = [
+        "status",
+        "topology",
+        "adaptive",
+        "normals",
+        "sections",
+        "curvature",
+        "polyline",
+        "cut",
+        "affected",
+        "shape",
+        "segmentation",
+        "version",
+    ]
+    .map(|module| std::fs::read_to_string(root().join(format!("src/capi/{module}.rs"))).unwrap());
     let mut functions = 0;
     for line in sources.iter().flat_map(|source| source.lines()) {
         if let Some(rest) = line.split("extern \"C\" fn ").nth(1) {

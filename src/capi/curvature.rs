@@ -223,27 +223,38 @@ pub unsafe extern "C" fn umb_curvatures(
             let points = read_required(points, "points")?.view()?;
             let options = read_versioned(options)?;
             let outputs = curvature_outputs(outputs, topology.vertex_count())?;
-            let small = |what, value: u32| u8::try_from(value).map_err(|_| Error::OptionOutOfRange { what });
-            let weight = AskedWeight {
-                weight: options.weight,
-                degree: (options.normal_degree, "options.normal_degree"),
-                rings: (options.normal_rings, "options.normal_rings"),
-                model: options.model,
-            };
-            let method = method(options.method)?;
-            let asked = CurvatureOptions {
-                method,
-                section: section(options.section)?,
-                normals: vertex_normals_asked(&options.normals, weight.view()?)?,
-                model: if method == Method::AdaptiveJet { model_given(options.model)? } else { None },
-                degree: small("options.degree", options.degree)?,
-                rings: options.rings as usize,
-                radius: options.radius,
-            };
+            let asked = options.asked()?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
             curvatures(topology, &points, &asked, run, &outputs)
         })
+    }
+}
+
+impl umb_curvature_options {
+    /// # Safety
+    /// As the header asks.
+    pub(super) unsafe fn asked<'a>(&self) -> Result<CurvatureOptions<'a>, Error> {
+        let small = |what, value: u32| u8::try_from(value).map_err(|_| Error::OptionOutOfRange { what });
+        let weight = AskedWeight {
+            weight: self.weight,
+            degree: (self.normal_degree, "options.normal_degree"),
+            rings: (self.normal_rings, "options.normal_rings"),
+            model: self.model,
+        };
+        let method = method(self.method)?;
+        // SAFETY: handed on.
+        unsafe {
+            Ok(CurvatureOptions {
+                method,
+                section: section(self.section)?,
+                normals: vertex_normals_asked(&self.normals, weight.view()?)?,
+                model: if method == Method::AdaptiveJet { model_given(self.model)? } else { None },
+                degree: small("options.degree", self.degree)?,
+                rings: self.rings as usize,
+                radius: self.radius,
+            })
+        }
     }
 }
 

@@ -4,12 +4,12 @@ use super::guard::guard;
 use super::normals::{umb_normal_options, vertex_views};
 use super::status::{umb_error, umb_status};
 use super::topology::{umb_topology, umb_topology_options};
-use super::types::{umb_faces, umb_output, umb_points, umb_status_output};
+use super::types::{numbers, umb_faces, umb_output, umb_points, umb_status_output};
 use super::versioned::{check_reserved, read_required, read_versioned, required};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::parts::{CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, corner_normals};
-use crate::view::{Indices, Output, boxed};
+use crate::view::{Output, boxed};
 use libc::size_t;
 use std::mem::offset_of;
 
@@ -293,7 +293,7 @@ unsafe fn wanted<'a>(output: *const umb_output, what: &'static str, count: usize
 impl umb_creases {
     /// # Safety
     /// The fields describe memory that stays readable and unchanged for `'a`.
-    unsafe fn view<'a>(&self) -> Result<Creases<'a>, Error> {
+    pub(super) unsafe fn view<'a>(&self) -> Result<Creases<'a>, Error> {
         check_reserved("umb_creases", offset_of!(umb_creases, reserved), self.reserved)?;
         let Some(ends) = self.edge_count.checked_mul(2) else {
             let expected = usize::MAX as u64 / 2;
@@ -301,25 +301,10 @@ impl umb_creases {
         };
         // SAFETY: handed on.
         let (edges, groups) = unsafe {
-            (list(self.edges, ends, "creases.edges")?, list(self.groups, self.group_count, "creases.groups")?)
+            (numbers(self.edges, ends, "creases.edges")?, numbers(self.groups, self.group_count, "creases.groups")?)
         };
         let (edges, _) = edges.unwrap_or_default().as_chunks();
         let angle = if self.angle == 0.0 { DEFAULT_CREASE_ANGLE } else { self.angle };
         Ok(Creases { angle, edges, groups })
-    }
-}
-
-/// `count` numbers, or none where `data` is null.
-///
-/// # Safety
-/// `data` is null or points to `count` readable numbers that stay unchanged for `'a`.
-unsafe fn list<'a>(data: *const u32, count: usize, what: &'static str) -> Result<Option<&'a [u32]>, Error> {
-    if data.is_null() && count == 0 {
-        return Ok(None);
-    }
-    // SAFETY: handed on.
-    match unsafe { Indices::from_raw(data, count, what) }? {
-        Indices::U32(list) => Ok(Some(list)),
-        _ => Ok(None),
     }
 }

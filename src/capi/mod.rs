@@ -19,6 +19,8 @@ pub use status::*;
 #[cfg(not(test))]
 mod adaptive;
 #[cfg(not(test))]
+mod affected;
+#[cfg(not(test))]
 mod curvature;
 #[cfg(not(test))]
 mod cut;
@@ -28,6 +30,10 @@ mod normals;
 mod polyline;
 #[cfg(not(test))]
 mod sections;
+#[cfg(not(test))]
+mod segmentation;
+#[cfg(not(test))]
+mod shape;
 #[cfg(not(test))]
 mod topology;
 #[cfg(not(test))]
@@ -40,6 +46,8 @@ mod versioned;
 #[cfg(not(test))]
 pub use adaptive::*;
 #[cfg(not(test))]
+pub use affected::*;
+#[cfg(not(test))]
 pub use curvature::*;
 #[cfg(not(test))]
 pub use cut::*;
@@ -49,6 +57,10 @@ pub use normals::*;
 pub use polyline::*;
 #[cfg(not(test))]
 pub use sections::*;
+#[cfg(not(test))]
+pub use segmentation::*;
+#[cfg(not(test))]
+pub use shape::*;
 #[cfg(not(test))]
 pub use topology::*;
 #[cfg(not(test))]

@@ -143,12 +143,9 @@ pub unsafe extern "C" fn umb_polyline_curvatures(
                 symmetric_parabola: outputs.symmetric_parabola.view(points.len())?,
                 status: outputs.status.view(points.len())?,
             };
+            options.run.check_no_list("umb_polyline_options", offset_of!(umb_polyline_options, run))?;
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            if run.vertices.is_some() {
-                let byte = offset_of!(umb_polyline_options, run) + offset_of!(umb_run, vertices);
-                return Err(Error::UnknownField { what: "umb_polyline_options", byte });
-            }
             polyline_curvatures(&points, closed, run, &outputs)
         })
     }

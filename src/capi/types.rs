@@ -4,8 +4,9 @@ use super::guard::outside;
 use super::versioned::{Versioned, check_reserved};
 use crate::error::Error;
 use crate::parallel::Run;
+use crate::parts::ScalarField;
 use crate::simd::Level;
-use crate::view::{Faces, Indices, Output, Points, StatusOutput};
+use crate::view::{Faces, Indices, Output, Points, Scalars, StatusOutput};
 use libc::{c_int, c_void, size_t};
 use std::mem::offset_of;
 
@@ -56,6 +57,29 @@ pub struct umb_points {
     pub scalar: umb_scalar,
     /// 0
     pub reserved: u32,
+}
+
+/// Where the numbers of a `umb_scalars` are: a `UMB_AT_` constant.
+pub type umb_location = u32;
+/// One for each vertex, `#V`; the default.
+pub const UMB_AT_VERTICES: umb_location = 0;
+/// One for each face, `#F`.
+pub const UMB_AT_FACES: umb_location = 1;
+
+/// Numbers to read, one for each vertex or for each face, borrowed for the call: curvatures, say.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_scalars {
+    /// The first number, aligned to its scalar.
+    pub data: *const c_void,
+    /// How many there are.
+    pub count: size_t,
+    /// Bytes from one to the next, a multiple of the scalar's size; 0 if packed.
+    pub stride: size_t,
+    /// The scalar type.
+    pub scalar: umb_scalar,
+    /// Where they are.
+    pub location: umb_location,
 }
 
 /// Faces, `#F` loops of vertex indices (counter-clockwise seen from outside), borrowed for the call.
@@ -156,6 +180,11 @@ versioned! {
     umb_face_outputs: 72, 48;
     umb_creases: 48, 32;
     umb_corner_outputs: 96, 64;
+    umb_moved: 40, 24;
+    umb_shape_options: 72, 48;
+    umb_feature_options: 56, 36;
+    umb_watershed_options: 72, 48;
+    umb_region_options: 104, 72;
     umb_curvature_options: 120, 88;
     umb_curvature_outputs: 408, 272;
     umb_section_options: 136, 92;
@@ -176,6 +205,35 @@ impl umb_points {
                 UMB_SCALAR_F64 => Points::from_raw_f64(self.data.cast(), self.count, self.stride),
                 value => Err(Error::UnknownConstant { what: "points.scalar", value: value as u64 }),
             }
+        }
+    }
+}
+
+impl umb_scalars {
+    /// # Safety
+    /// The fields describe memory that stays readable and unchanged for `'a`.
+    pub(super) unsafe fn view<'a>(&self) -> Result<Scalars<'a>, Error> {
+        // SAFETY: handed on.
+        unsafe {
+            match self.scalar {
+                UMB_SCALAR_F32 => Scalars::from_raw_f32(self.data.cast(), self.count, self.stride),
+                UMB_SCALAR_F64 => Scalars::from_raw_f64(self.data.cast(), self.count, self.stride),
+                value => Err(Error::UnknownConstant { what: "scalars.scalar", value: value as u64 }),
+            }
+        }
+    }
+
+    /// As [`umb_scalars::view`], with where they are.
+    ///
+    /// # Safety
+    /// As [`umb_scalars::view`].
+    pub(super) unsafe fn field<'a>(&self) -> Result<ScalarField<'a>, Error> {
+        // SAFETY: handed on.
+        let scalars = unsafe { self.view() }?;
+        match self.location {
+            UMB_AT_VERTICES => Ok(ScalarField::Vertices(scalars)),
+            UMB_AT_FACES => Ok(ScalarField::Faces(scalars)),
+            value => Err(Error::UnknownConstant { what: "scalars.location", value: value as u64 }),
         }
     }
 }
@@ -260,6 +318,40 @@ impl umb_status_output {
     }
 }
 
+/// `count` bytes, or none where `data` is null.
+///
+/// # Safety
+/// `data` is null or points to `count` bytes that stay readable and unchanged for `'a`.
+pub(super) unsafe fn bytes<'a>(data: *const u8, count: usize, what: &'static str) -> Result<Option<&'a [u8]>, Error> {
+    if data.is_null() {
+        return if count == 0 { Ok(None) } else { Err(Error::NullPointer { what }) };
+    }
+    if count > isize::MAX as usize {
+        return Err(Error::Size { what, found: count as u64, expected: isize::MAX as u64 });
+    }
+    // SAFETY: handed on.
+    Ok(Some(unsafe { std::slice::from_raw_parts(data, count) }))
+}
+
+/// `count` numbers, or none where `data` is null.
+///
+/// # Safety
+/// `data` is null or points to `count` numbers that stay readable and unchanged for `'a`.
+pub(super) unsafe fn numbers<'a>(
+    data: *const u32,
+    count: usize,
+    what: &'static str,
+) -> Result<Option<&'a [u32]>, Error> {
+    if data.is_null() && count == 0 {
+        return Ok(None);
+    }
+    // SAFETY: handed on.
+    match unsafe { Indices::from_raw(data, count, what) }? {
+        Indices::U32(numbers) => Ok(Some(numbers)),
+        _ => Ok(None),
+    }
+}
+
 /// The level that a `UMB_SIMD_` constant stands for.
 pub(super) fn level_of(simd: umb_simd, what: &'static str) -> Result<Level, Error> {
     let level = match simd {
@@ -274,6 +366,14 @@ pub(super) fn level_of(simd: umb_simd, what: &'static str) -> Result<Level, Erro
 }
 
 impl umb_run {
+    /// Refuses a list of vertices, for calls that have none; `byte` is where this stands in the struct `what`.
+    pub(super) fn check_no_list(&self, what: &'static str, byte: usize) -> Result<(), Error> {
+        if self.vertices.is_null() && self.vertex_count == 0 {
+            return Ok(());
+        }
+        Err(Error::UnknownField { what, byte: byte + offset_of!(umb_run, vertices) })
+    }
+
     /// The progress callback, as Rust calls it.
     pub(super) fn callback(&self) -> Option<impl FnMut(f64) -> bool + use<>> {
         let (progress, user) = (self.progress?, self.user);
@@ -289,18 +389,8 @@ impl umb_run {
     /// `vertices` points to `vertex_count` readable indices, or is null.
     pub(super) unsafe fn view<'a>(&self, progress: Option<&'a mut dyn FnMut(f64) -> bool>) -> Result<Run<'a>, Error> {
         let level = level_of(self.simd, "run.simd")?;
-        let vertices = if self.vertices.is_null() {
-            if self.vertex_count > 0 {
-                return Err(Error::NullPointer { what: "run.vertices" });
-            }
-            None
-        } else {
-            // SAFETY: handed on.
-            match unsafe { Indices::from_raw(self.vertices, self.vertex_count, "run.vertices") }? {
-                Indices::U32(vertices) => Some(vertices),
-                _ => None,
-            }
-        };
+        // SAFETY: handed on.
+        let vertices = unsafe { numbers(self.vertices, self.vertex_count, "run.vertices") }?;
         Ok(Run { threads: self.threads as usize, level, vertices, progress })
     }
 }

@@ -18,7 +18,7 @@ use super::surroundings::{crease_normals, surroundings};
 use super::vertex::NormalOutputs;
 use crate::error::{Error, reserved};
 use crate::fit::{AdaptiveFit, AdaptiveJet, AdaptiveModel, Surroundings, learn};
-use crate::parallel::Run;
+use crate::parallel::{Run, fill};
 use crate::simd::{Mask, Vector};
 use crate::sweep::{Counts, MOST_RINGS, Patch, PatchQuantity, Room, check_counts, sweep_patches};
 use crate::topology::{Neighbourhood, Topology, closure, status};
@@ -106,7 +106,12 @@ pub(crate) fn adaptive_jets<S: Sink>(
     let mut noise = Vec::new();
     if model.noise_exponent > 0 {
         noise = zeroed(topology.vertex_count())?;
-        crate::parallel::fill(run.threads, &mut noise, |vertex| model.noise_at(around.edge_lengths[vertex]));
+        match &list {
+            Some(list) => list.iter().for_each(|&vertex| {
+                noise[vertex as usize] = model.noise_at(around.edge_lengths[vertex as usize]);
+            }),
+            None => fill(run.threads, &mut noise, |vertex| model.noise_at(around.edge_lengths[vertex])),
+        }
     }
     let mut creased: Vec<u8> = zeroed(topology.vertex_count())?;
     // All memory is there before the first result is written.

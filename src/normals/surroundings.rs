@@ -50,13 +50,17 @@ pub(super) fn surroundings(
         marks: found.marks.as_mut_slice().into(),
     };
     sweep(topology, points, run, true, &quantity)?;
-    for vertex in 0..count {
+    let mut spread = |vertex: usize| {
         if found.marks[vertex] & Surroundings::SPIKE != 0 {
             found.has_spikes = true;
             for &neighbour in topology.ring(vertex) {
                 found.marks[neighbour as usize] |= Surroundings::BESIDE_SPIKE;
             }
         }
+    };
+    match run.vertices {
+        Some(vertices) => vertices.iter().for_each(|&vertex| spread(vertex as usize)),
+        None => (0..count).for_each(spread),
     }
     Ok(found)
 }

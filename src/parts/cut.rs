@@ -14,6 +14,7 @@
 //! cut vertex.
 
 use super::creases::{Creases, faces_of_corners};
+use super::sets::Sets;
 use crate::error::{Error, reserved};
 use crate::parallel::Run;
 use crate::topology::{Adjacency, NO_CORNER, Topology, has_three_corners};
@@ -79,33 +80,6 @@ impl CutMesh {
             output.write(place, points.get(vertex as usize).to_array());
         }
         Ok(())
-    }
-}
-
-/// Sets of corners, each told by its smallest.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Result<Self, Error> {
-        let mut parents = reserved(count)?;
-        parents.extend(0..count as u32);
-        Ok(Sets(parents))
-    }
-
-    #[inline(always)]
-    fn root(&mut self, mut corner: u32) -> u32 {
-        while self.0[corner as usize] != corner {
-            let above = self.0[self.0[corner as usize] as usize];
-            self.0[corner as usize] = above;
-            corner = above;
-        }
-        corner
-    }
-
-    #[inline(always)]
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
     }
 }
 

@@ -2,8 +2,11 @@
 //!
 //! Segmentations label faces: [`feature_segmentation`] by creases, [`watershed`] by any scalar, [`region_growing`] by the
 //! [`ShapeClass`]es of vertices.
-//! [`CutMesh`] cuts a mesh open along its creases, for normals of corners and for estimates that stop there.
+//! [`CutMesh`] cuts a mesh open along its creases, for normals of corners and for estimates that stop there. [`affected_normals`] and
+//! [`affected_curvatures`] list what changes as vertices move.
 
+mod affected;
+mod by_curvature;
 mod corner_normals;
 mod creases;
 mod cut;
@@ -17,6 +20,8 @@ mod shape;
 mod small_regions;
 mod watershed;
 
+pub use affected::{affected_curvatures, affected_normals};
+pub use by_curvature::{CURVEDNESS_DEPTH, regions_of_shape, watershed_of_curvedness};
 pub use corner_normals::{CornerOutputs, corner_normals};
 pub use creases::{Creases, DEFAULT_CREASE_ANGLE};
 pub use cut::CutMesh;

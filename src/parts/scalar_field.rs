@@ -104,6 +104,6 @@ mod tests {
                 .clone()
                 .all(|value| value == 0.5 || (value - 0.5).abs() < 1e-15 && value == turned.clone().next().unwrap())
         );
-        assert_eq!(mean(&mut [-f64::MAX, f64::MAX, f64::MAX]).is_finite(), true);
+        assert!(mean(&mut [-f64::MAX, f64::MAX, f64::MAX]).is_finite());
     }
 }

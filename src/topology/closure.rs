@@ -7,6 +7,16 @@ use crate::view::zeroed;
 /// Everything within so many rings of the vertices of `list`, each vertex once; vertices that share a face are
 /// neighbours. Cost: the faces of what is found; a byte a vertex and a face of the mesh, untouched where nothing is.
 pub(crate) fn closure(topology: &Topology, list: &[u32], rings: usize) -> Result<Vec<u32>, Error> {
+    Ok(closure_by_rings(topology, list, rings, 0)?.0)
+}
+
+/// As [`closure`] of `rings + further` rings, ring after ring, and how many of these vertices are in the first `rings`.
+pub(crate) fn closure_by_rings(
+    topology: &Topology,
+    list: &[u32],
+    rings: usize,
+    further: usize,
+) -> Result<(Vec<u32>, usize), Error> {
     let mut seen: Vec<u8> = zeroed(topology.vertex_count())?;
     let mut seen_faces: Vec<u8> = zeroed(topology.polygons().map_or(0, |polygons| polygons.face_count()))?;
     let mut found: Vec<u32> = Vec::new();
@@ -20,8 +30,8 @@ pub(crate) fn closure(topology: &Topology, list: &[u32], rings: usize) -> Result
     for &vertex in list {
         add(&mut found, vertex)?;
     }
-    let mut first = 0;
-    for _ in 0..rings {
+    let (mut first, mut within) = (0, found.len());
+    for ring in 0..rings + further {
         let last = found.len();
         for index in first..last {
             let vertex = found[index] as usize;
@@ -38,6 +48,9 @@ pub(crate) fn closure(topology: &Topology, list: &[u32], rings: usize) -> Result
             }
         }
         first = last;
+        if ring < rings {
+            within = found.len();
+        }
     }
-    Ok(found)
+    Ok((found, within))
 }

@@ -4,10 +4,10 @@
  */
 #include "mesh.h"
 
-static umb_cut *cut_of(const struct mesh *mesh, const umb_creases *creases) {
+static umb_cut *cut_of(const struct mesh *mesh, const umb_creases *creases, umb_scalar scalar) {
   umb_error error = UMB_ERROR_INIT;
   umb_faces faces = faces_of(mesh);
-  umb_points points = points_of(mesh, UMB_SCALAR_F64);
+  umb_points points = points_of(mesh, scalar);
   umb_cut *cut = NULL;
   SUCCEEDS(umb_cut_create(&faces, &points, creases, NULL, &cut, &error));
   CHECK(umb_cut_corner_count(cut) == mesh->index_count);
@@ -24,14 +24,14 @@ static void every_output(const struct mesh *mesh, const umb_creases *creases) {
   static const umb_scalar scalars[2] = {UMB_SCALAR_F32, UMB_SCALAR_F64};
   umb_error error = UMB_ERROR_INIT;
   umb_faces faces = faces_of(mesh);
-  umb_cut *cut = cut_of(mesh, creases);
-  size_t count = umb_cut_vertex_count(cut);
-  unsigned char *status = (unsigned char *)memory(count);
-  for (umb_weight weight = UMB_WEIGHT_CONFORMAL; weight <= UMB_WEIGHT_TILTED_SECTIONS; weight++) {
-    for (size_t kind = 0; kind < 4; kind++) {
-      umb_scalar scalar = scalars[kind % 2];
-      size_t gap = kind / 2 * 3;
-      umb_points points = points_of(mesh, scalar);
+  for (size_t kind = 0; kind < 4; kind++) {
+    /* Where angles decide, they do by the same positions. */
+    umb_scalar scalar = scalars[kind % 2];
+    umb_points points = points_of(mesh, scalar);
+    umb_cut *cut = cut_of(mesh, creases, scalar);
+    size_t count = umb_cut_vertex_count(cut), gap = kind / 2 * 3;
+    unsigned char *status = (unsigned char *)memory(count);
+    for (umb_weight weight = UMB_WEIGHT_CONFORMAL; weight <= UMB_WEIGHT_TILTED_SECTIONS; weight++) {
       struct array corners = array_of(mesh->index_count, 3, gap, scalar);
       struct array once = array_of(mesh->index_count, 3, gap, scalar);
       struct array normals = array_of(count, 3, gap, scalar);
@@ -58,15 +58,15 @@ static void every_output(const struct mesh *mesh, const umb_creases *creases) {
       free(normals.data);
       free(sums.data);
     }
+    free(status);
+    umb_cut_destroy(cut);
   }
-  free(status);
-  umb_cut_destroy(cut);
 }
 
 /* Curvatures stop at creases: a box of flat sides has none. */
 static void curvatures(const struct mesh *mesh) {
   umb_error error = UMB_ERROR_INIT;
-  umb_cut *cut = cut_of(mesh, NULL);
+  umb_cut *cut = cut_of(mesh, NULL, UMB_SCALAR_F64);
   size_t count = umb_cut_vertex_count(cut);
   umb_points points = points_of(mesh, UMB_SCALAR_F64), own;
   struct array positions = array_of(count, 3, 0, UMB_SCALAR_F64), k1 = array_of(count, 1, 0, UMB_SCALAR_F64);
@@ -105,7 +105,7 @@ static void refusals(const struct mesh *mesh) {
   umb_error error = UMB_ERROR_INIT;
   umb_faces faces = faces_of(mesh);
   umb_points points = points_of(mesh, UMB_SCALAR_F64), none = points;
-  umb_cut *cut = cut_of(mesh, NULL), *null = NULL;
+  umb_cut *cut = cut_of(mesh, NULL, UMB_SCALAR_F64), *null = NULL;
   umb_creases creases = UMB_CREASES_INIT;
   uint32_t edges[4] = {0, 1, 2, 8}, groups[5] = {1, 1, 1, 1, 1};
   struct array corners = array_of(mesh->index_count, 3, 0, UMB_SCALAR_F64);

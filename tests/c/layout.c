@@ -101,6 +101,20 @@ OFFSET(umb_fan, corner_count, 16);
 OFFSET(umb_fan, closed, 24);
 OFFSET(umb_fan, reserved, 28);
 
+SIZE(umb_feature_options, 56);
+OFFSET(umb_feature_options, struct_size, 0);
+OFFSET(umb_feature_options, reserved, 4);
+OFFSET(umb_feature_options, creases, 8);
+OFFSET(umb_feature_options, run, 16);
+
+SIZE(umb_moved, 40);
+OFFSET(umb_moved, struct_size, 0);
+OFFSET(umb_moved, reserved, 4);
+OFFSET(umb_moved, vertices, 8);
+OFFSET(umb_moved, vertex_count, 16);
+OFFSET(umb_moved, status, 24);
+OFFSET(umb_moved, status_count, 32);
+
 SIZE(umb_normal_options, 64);
 OFFSET(umb_normal_options, struct_size, 0);
 OFFSET(umb_normal_options, weight, 4);
@@ -152,6 +166,18 @@ OFFSET(umb_polyline_outputs, length_parabola, 56);
 OFFSET(umb_polyline_outputs, symmetric_parabola, 80);
 OFFSET(umb_polyline_outputs, status, 104);
 
+SIZE(umb_region_options, 104);
+OFFSET(umb_region_options, struct_size, 0);
+OFFSET(umb_region_options, reserved, 4);
+OFFSET(umb_region_options, angle, 8);
+OFFSET(umb_region_options, smallest_share, 16);
+OFFSET(umb_region_options, tolerance, 24);
+OFFSET(umb_region_options, smallest_faces, 32);
+OFFSET(umb_region_options, classes, 40);
+OFFSET(umb_region_options, class_count, 48);
+OFFSET(umb_region_options, curvature, 56);
+OFFSET(umb_region_options, run, 64);
+
 SIZE(umb_run, 40);
 OFFSET(umb_run, threads, 0);
 OFFSET(umb_run, simd, 4);
@@ -159,6 +185,13 @@ OFFSET(umb_run, vertices, 8);
 OFFSET(umb_run, vertex_count, 16);
 OFFSET(umb_run, progress, 24);
 OFFSET(umb_run, user, 32);
+
+SIZE(umb_scalars, 32);
+OFFSET(umb_scalars, data, 0);
+OFFSET(umb_scalars, count, 8);
+OFFSET(umb_scalars, stride, 16);
+OFFSET(umb_scalars, scalar, 24);
+OFFSET(umb_scalars, location, 28);
 
 SIZE(umb_section_options, 136);
 OFFSET(umb_section_options, struct_size, 0);
@@ -178,6 +211,14 @@ OFFSET(umb_section_outputs, reserved, 4);
 OFFSET(umb_section_outputs, curvature, 8);
 OFFSET(umb_section_outputs, status, 32);
 OFFSET(umb_section_outputs, normal, 48);
+
+SIZE(umb_shape_options, 72);
+OFFSET(umb_shape_options, struct_size, 0);
+OFFSET(umb_shape_options, reserved, 4);
+OFFSET(umb_shape_options, tolerance, 8);
+OFFSET(umb_shape_options, status, 16);
+OFFSET(umb_shape_options, status_count, 24);
+OFFSET(umb_shape_options, run, 32);
 
 SIZE(umb_status_output, 16);
 OFFSET(umb_status_output, data, 0);
@@ -210,3 +251,11 @@ OFFSET(umb_topology_stats, boundary_loops, 120);
 OFFSET(umb_topology_stats, euler_characteristic, 128);
 OFFSET(umb_topology_stats, max_valence, 136);
 OFFSET(umb_topology_stats, bytes, 144);
+
+SIZE(umb_watershed_options, 72);
+OFFSET(umb_watershed_options, struct_size, 0);
+OFFSET(umb_watershed_options, reserved, 4);
+OFFSET(umb_watershed_options, depth, 8);
+OFFSET(umb_watershed_options, height, 16);
+OFFSET(umb_watershed_options, curvature, 24);
+OFFSET(umb_watershed_options, run, 32);

@@ -27,6 +27,24 @@ pub enum Call {
     Cut,
     Corners(umb_weight),
     CornersOnce(umb_weight),
+    Segments(Kind),
+    Areas,
+    Means,
+    Shapes,
+    AffectedNormals(umb_weight),
+    AffectedCurvatures(umb_curvature_method),
+}
+
+/// How to segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Features,
+    /// By a height that is given, and by curvedness.
+    Height,
+    Curvedness,
+    /// By shape classes that are given, and by those of curvatures.
+    Classes,
+    Shapes,
 }
 
 /// All of them; weights that need no code of their own in a call are left to one.
@@ -37,6 +55,9 @@ pub fn all() -> Vec<Call> {
     [Call::Create, Call::Stats, Call::Valence, Call::Learn, Call::FaceNormals, Call::Polyline]
         .into_iter()
         .chain(creases)
+        .chain([Kind::Features, Kind::Height, Kind::Curvedness, Kind::Classes, Kind::Shapes].map(Call::Segments))
+        .chain([Call::Areas, Call::Means, Call::Shapes, Call::AffectedNormals(UMB_WEIGHT_JET)])
+        .chain([UMB_CURVATURE_JET, UMB_CURVATURE_MEYER].map(Call::AffectedCurvatures))
         .chain(weights().map(Call::Normals))
         .chain([Call::OneShot(UMB_WEIGHT_CONFORMAL), Call::OneShot(UMB_WEIGHT_ADAPTIVE_JET)])
         .chain(METHODS.map(Call::Curvatures))
@@ -49,12 +70,14 @@ pub fn all() -> Vec<Call> {
 impl Call {
     /// Whether it takes a `umb_run`, and so threads, a list and progress.
     pub fn runs(self) -> bool {
-        !matches!(self, Call::Create | Call::Stats | Call::Valence | Call::Cut)
+        let none = matches!(self, Call::Create | Call::Stats | Call::Valence | Call::Cut | Call::Areas | Call::Means);
+        !none && !matches!(self, Call::AffectedNormals(_) | Call::AffectedCurvatures(_))
     }
 
     /// Whether it takes a list of vertices.
     pub fn takes_list(self) -> bool {
-        let none = matches!(self, Call::FaceNormals | Call::Polyline | Call::Learn);
+        let none =
+            matches!(self, Call::FaceNormals | Call::Polyline | Call::Learn | Call::Segments(_) | Call::Shapes);
         self.runs() && !none && !matches!(self, Call::Corners(_) | Call::CornersOnce(_))
     }
 }
@@ -66,6 +89,34 @@ pub struct Fixture {
     handle: Handle,
     cut: Cut,
     directions: Vec<[f64; 3]>,
+    /// Numbers at vertices.
+    heights: Vec<f64>,
+    height: umb_scalars,
+    classes: Vec<u8>,
+    segmentation: Segments,
+    /// Curvatures of one ring.
+    curvature: umb_curvature_options,
+}
+
+/// A segmentation that frees itself.
+struct Segments(*mut umb_segmentation);
+
+impl Segments {
+    fn new(mesh: &Mesh, height: &umb_scalars) -> Segments {
+        let (mut found, mut error) = (std::ptr::null_mut(), zeroed());
+        let mut options: umb_watershed_options = zeroed();
+        options.height = height;
+        let (faces, points) = (faces(mesh), points(&mesh.positions));
+        let status = unsafe { umb_segment_watershed(&faces, &points, &options, &mut found, &mut error) };
+        assert_eq!(status, UMB_OK, "{}", message(&error));
+        Segments(found)
+    }
+}
+
+impl Drop for Segments {
+    fn drop(&mut self) {
+        unsafe { umb_segmentation_destroy(self.0) };
+    }
 }
 
 /// A mesh cut along its creases that frees itself.
@@ -92,7 +143,27 @@ impl Drop for Cut {
 impl Fixture {
     pub fn new(mesh: Mesh) -> Self {
         let directions = vec![[1.0, 0.3, -0.2], [0.1, -1.0, 0.4]];
-        Fixture { single: mesh.single(), handle: Handle::new(&mesh), cut: Cut::new(&mesh), directions, mesh }
+        let heights: Vec<f64> = (0..mesh.positions.len()).map(|vertex| (vertex * 7 % 11) as f64).collect();
+        let classes = (0..mesh.positions.len()).map(|vertex| (vertex / 3 % 9) as u8).collect();
+        let height = umb_scalars {
+            data: heights.as_ptr().cast(),
+            count: heights.len(),
+            stride: 0,
+            scalar: UMB_SCALAR_F64,
+            location: UMB_AT_VERTICES,
+        };
+        Fixture {
+            single: mesh.single(),
+            handle: Handle::new(&mesh),
+            cut: Cut::new(&mesh),
+            segmentation: Segments::new(&mesh, &height),
+            curvature: options(UMB_CURVATURE_LEAST_SQUARES),
+            directions,
+            heights,
+            height,
+            classes,
+            mesh,
+        }
     }
 }
 
@@ -143,15 +214,29 @@ pub struct Prepared<'a> {
     section_outputs: umb_section_outputs,
     polyline_outputs: umb_polyline_outputs,
     corner_outputs: umb_corner_outputs,
+    feature_options: umb_feature_options,
+    watershed_options: umb_watershed_options,
+    region_options: umb_region_options,
+    shape_options: umb_shape_options,
+    moved: umb_moved,
+    sums: *mut f64,
+    classes: umb_status_output,
+    list: *mut u32,
     pub model: umb_adaptive_model,
     stats: umb_topology_stats,
     valence: usize,
     handle: *mut umb_topology,
     cut: *mut umb_cut,
+    segmentation: *mut umb_segmentation,
+    /// Labels and boundary edges, with room for any.
+    labels: Vec<u32>,
     pub error: umb_error,
     /// What the outputs point to.
     arrays: Vec<Vec<f64>>,
 }
+
+/// Vertices that move.
+const FEW: [u32; 2] = [0, 1];
 
 /// What arrays hold before a call: no result has these bits.
 pub const UNTOUCHED: f64 = f64::from_bits(0xa5a5_a5a5_a5a5_a5a5);
@@ -194,11 +279,21 @@ impl<'a> Prepared<'a> {
             section_outputs: zeroed(),
             polyline_outputs: zeroed(),
             corner_outputs: zeroed(),
+            feature_options: zeroed(),
+            watershed_options: zeroed(),
+            region_options: zeroed(),
+            shape_options: zeroed(),
+            moved: zeroed(),
+            sums: std::ptr::null_mut(),
+            classes: umb_status_output { data: std::ptr::null_mut(), stride: 0 },
+            list: std::ptr::null_mut(),
             model: zeroed(),
             stats: zeroed(),
             valence: usize::MAX,
             handle: std::ptr::null_mut(),
             cut: std::ptr::null_mut(),
+            segmentation: std::ptr::null_mut(),
+            labels: Vec::with_capacity(mesh.face_count() + 2 * mesh.indices.len()),
             error: zeroed(),
             arrays: vec![],
         };
@@ -271,6 +366,39 @@ impl<'a> Prepared<'a> {
                 // A status that the call does not have: the last array holds bytes.
                 let _ = prepared.bytes(0);
             }
+            Call::Segments(kind) => {
+                prepared.feature_options.run = run;
+                prepared.watershed_options.run = run;
+                prepared.region_options.run = run;
+                prepared.watershed_options.curvature = &fixture.curvature;
+                prepared.region_options.curvature = &fixture.curvature;
+                if kind == Kind::Height {
+                    prepared.watershed_options.height = &fixture.height;
+                }
+                if kind == Kind::Classes {
+                    prepared.region_options.classes = fixture.classes.as_ptr();
+                    prepared.region_options.class_count = fixture.classes.len();
+                }
+            }
+            Call::Areas | Call::Means => {
+                let count = unsafe { umb_segmentation_count(fixture.segmentation.0) };
+                prepared.arrays.push(vec![UNTOUCHED; count]);
+                prepared.sums = prepared.arrays.last_mut().unwrap().as_mut_ptr();
+                let _ = prepared.bytes(0);
+            }
+            Call::Shapes => {
+                prepared.shape_options.run = run;
+                prepared.classes = prepared.bytes(vertices);
+            }
+            Call::AffectedNormals(_) | Call::AffectedCurvatures(_) => {
+                if let Call::AffectedCurvatures(method) = call {
+                    prepared.curvature_options = options(method);
+                }
+                prepared.normal_options.weight = UMB_WEIGHT_JET;
+                prepared.moved.vertices = FEW.as_ptr();
+                prepared.moved.vertex_count = FEW.len().min(vertices);
+                prepared.list = prepared.bytes(4 * vertices).data.cast();
+            }
         }
         prepared
     }
@@ -338,6 +466,45 @@ impl<'a> Prepared<'a> {
                     let (options, corner) = (&self.normal_options, &self.corner_outputs.corner);
                     umb_corner_normals_from_faces(&self.faces, points, std::ptr::null(), options, corner, error)
                 }
+                Call::Segments(kind) => {
+                    let (faces, made) = (&raw const self.faces, &raw mut self.segmentation);
+                    let status = match kind {
+                        Kind::Features => umb_segment_features(faces, points, &self.feature_options, made, error),
+                        Kind::Height | Kind::Curvedness => {
+                            umb_segment_watershed(faces, points, &self.watershed_options, made, error)
+                        }
+                        Kind::Classes | Kind::Shapes => {
+                            umb_segment_regions(faces, points, &self.region_options, made, error)
+                        }
+                    };
+                    if status == UMB_OK {
+                        let count = umb_segmentation_face_count(*made);
+                        self.labels.extend_from_slice(list(umb_segmentation_labels(*made), count));
+                        let count = 2 * umb_segmentation_boundary_edge_count(*made);
+                        self.labels.extend_from_slice(list(umb_segmentation_boundary_edges(*made), count));
+                    }
+                    status
+                }
+                Call::Areas | Call::Means => {
+                    let (made, faces) = (self.fixture.segmentation.0.cast_const(), &raw const self.faces);
+                    let (count, scalars) = (umb_segmentation_count(made), &raw const self.fixture.height);
+                    if self.call == Call::Areas {
+                        return umb_segmentation_areas(made, faces, points, self.sums, count, error);
+                    }
+                    umb_segmentation_means(made, faces, points, scalars, self.sums, count, error)
+                }
+                Call::Shapes => {
+                    let k = &raw const self.fixture.height;
+                    umb_shape_classes(points, k, k, &self.shape_options, &self.classes, error)
+                }
+                Call::AffectedNormals(_) => {
+                    let (moved, count) = (&self.moved, &raw mut self.valence);
+                    umb_affected_normals(topology, moved, &self.normal_options, self.list, count, error)
+                }
+                Call::AffectedCurvatures(_) => {
+                    let (moved, count) = (&self.moved, &raw mut self.valence);
+                    umb_affected_curvatures(topology, moved, &self.curvature_options, self.list, count, error)
+                }
                 Call::Polyline => {
                     umb_polyline_curvatures(&self.polyline, &self.polyline_options, &self.polyline_outputs, error)
                 }
@@ -356,6 +523,7 @@ impl<'a> Prepared<'a> {
         unsafe {
             umb_topology_destroy(std::mem::replace(&mut self.handle, std::ptr::null_mut()));
             umb_cut_destroy(std::mem::replace(&mut self.cut, std::ptr::null_mut()));
+            umb_segmentation_destroy(std::mem::replace(&mut self.segmentation, std::ptr::null_mut()));
         }
     }
 
@@ -365,7 +533,8 @@ impl<'a> Prepared<'a> {
         let stats = (self.stats.edge_count, self.stats.euler_characteristic, self.stats.boundary_loops);
         let numbers = [model.0, model.1].into_iter().chain(model.2).map(f64::to_bits);
         let counts = [model.3 as u64, stats.0, stats.1 as u64, stats.2, self.valence as u64];
-        self.arrays.iter().flatten().map(|x| x.to_bits()).chain(numbers).chain(counts).collect()
+        let labels = self.labels.iter().map(|&label| label as u64);
+        self.arrays.iter().flatten().map(|x| x.to_bits()).chain(numbers).chain(counts).chain(labels).collect()
     }
 
     /// Whether nothing has been written.
@@ -376,11 +545,14 @@ impl<'a> Prepared<'a> {
             && self.stats.vertex_count == 0
             && self.handle.is_null()
             && self.cut.is_null()
+            && self.segmentation.is_null()
+            && self.labels.is_empty()
     }
 
     /// Makes all outputs as they were before the call.
     pub fn reset(&mut self) {
         self.arrays.iter_mut().for_each(|array| array.fill(UNTOUCHED));
+        self.labels.clear();
         (self.model, self.stats, self.valence, self.error) = (zeroed(), zeroed(), usize::MAX, zeroed());
     }
 
@@ -404,4 +576,12 @@ impl<'a> Prepared<'a> {
         numbers.iter().flatten().filter(|x| x.to_bits() != UNTOUCHED.to_bits()).all(finite)
             && [self.model.edge_length, self.model.noise].into_iter().chain(self.model.sizes).all(f64::is_finite)
     }
+}
+
+/// What a handle holds; it has none where there is nothing.
+///
+/// # Safety
+/// `data` points to `count` numbers.
+unsafe fn list<'a>(data: *const u32, count: usize) -> &'a [u32] {
+    if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(data, count) } }
 }

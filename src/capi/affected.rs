@@ -1,0 +1,146 @@
+//! What changes as vertices move.
+
+use super::curvature::umb_curvature_options;
+use super::guard::guard;
+use super::normals::umb_normal_options;
+use super::status::{umb_error, umb_status};
+use super::topology::umb_topology;
+use super::types::{bytes, numbers};
+use super::versioned::{check_reserved, read_versioned, required};
+use crate::error::Error;
+use crate::parts::{affected_curvatures, affected_normals};
+use libc::size_t;
+use std::mem::offset_of;
+
+/// Vertices that have moved since normals or curvatures were computed.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_moved {
+    /// `sizeof(umb_moved)`; 0 stands for the size of its first version.
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// The vertices; may repeat. May be null if there are none.
+    pub vertices: *const u32,
+    /// The number of `vertices`.
+    pub vertex_count: size_t,
+    /// The status bytes of the results as they were, `#V`, which calls for lists have kept up to date: they tell fits whose neighbourhood was
+    /// widened. May be null: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
+    pub status: *const u8,
+    /// The number of vertices, or 0 if `status` is null.
+    pub status_count: size_t,
+}
+
+/// Lists the vertices whose normals may change as others move: what `vertices` of `umb_run` has to be for a call that brings the normals up
+/// to date. Such a call gives, with those it leaves alone, the same bits as a call for all.
+///
+/// These are the vertices within as many rings of those that moved as a normal depends on: one for averages, those of the fit for jets,
+/// one more than those of the fit for adaptive jets. Adaptive jets need a model (`umb_learn_model`): without, each normal depends on all
+/// positions.
+///
+/// Threads: any number of calls may use one topology at once. Cost: the rings of what is found, and next to nothing for the rest of
+/// the mesh.
+///
+/// @param topology the handle
+/// @param moved the vertices that moved
+/// @param options those of the call for the normals; `run` is not looked at. May be null
+/// @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+/// @param count receives the number of vertices in the list
+/// @param error may be null
+///
+/// Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_MISALIGNED`, `_SIZE`,
+/// `_INDEX_OUT_OF_RANGE` (element: place in `moved->vertices`), `_NOT_APPLICABLE` (no model), `_OPTION_OUT_OF_RANGE`, `_OUT_OF_MEMORY`.
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+#[must_use]
+pub unsafe extern "C" fn umb_affected_normals(
+    topology: *const umb_topology,
+    moved: *const umb_moved,
+    options: *const umb_normal_options,
+    vertices: *mut u32,
+    count: *mut size_t,
+    error: *mut umb_error,
+) -> umb_status {
+    // SAFETY: the header asks of the caller what these ask for.
+    unsafe {
+        guard(error, || {
+            let topology = &topology.as_ref().ok_or(Error::NullPointer { what: "topology" })?.0;
+            let moved = required(moved, "moved")?;
+            let (list, statuses) = moved.view()?;
+            let weight = read_versioned(options)?.asked()?;
+            hand_out(vertices, count, || affected_normals(topology, list, weight, statuses))
+        })
+    }
+}
+
+/// Lists the vertices whose curvatures may change as others move, or as normals do that the caller gives for them. Else as
+/// `umb_affected_normals`; the curvatures of regions by `radius` have no list (`UMB_ERROR_NOT_APPLICABLE`).
+///
+/// @param topology the handle
+/// @param moved the vertices that moved, or whose given normals changed
+/// @param options those of the call for the curvatures; `run` is not looked at. May be null
+/// @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+/// @param count receives the number of vertices in the list
+/// @param error may be null
+///
+/// Errors: as `umb_affected_normals`.
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+#[must_use]
+pub unsafe extern "C" fn umb_affected_curvatures(
+    topology: *const umb_topology,
+    moved: *const umb_moved,
+    options: *const umb_curvature_options,
+    vertices: *mut u32,
+    count: *mut size_t,
+    error: *mut umb_error,
+) -> umb_status {
+    // SAFETY: the header asks of the caller what these ask for.
+    unsafe {
+        guard(error, || {
+            let topology = &topology.as_ref().ok_or(Error::NullPointer { what: "topology" })?.0;
+            let moved = required(moved, "moved")?;
+            let (list, statuses) = moved.view()?;
+            let options = read_versioned(options)?.asked()?;
+            hand_out(vertices, count, || affected_curvatures(topology, list, &options, statuses))
+        })
+    }
+}
+
+impl umb_moved {
+    /// The vertices, and the statuses if there are any.
+    ///
+    /// # Safety
+    /// The fields describe memory that stays readable and unchanged for `'a`.
+    unsafe fn view<'a>(&self) -> Result<(&'a [u32], Option<&'a [u8]>), Error> {
+        check_reserved("umb_moved", offset_of!(umb_moved, reserved), self.reserved)?;
+        // SAFETY: handed on.
+        unsafe {
+            let list = numbers(self.vertices, self.vertex_count, "moved.vertices")?;
+            Ok((list.unwrap_or_default(), bytes(self.status, self.status_count, "moved.status")?))
+        }
+    }
+}
+
+/// Writes a list and its length.
+///
+/// # Safety
+/// `vertices` has room for every list that there can be; `count` may be written.
+unsafe fn hand_out(
+    vertices: *mut u32,
+    count: *mut size_t,
+    list: impl FnOnce() -> Result<Vec<u32>, Error>,
+) -> Result<(), Error> {
+    for (pointer, what) in [(vertices.cast::<u8>(), "vertices"), (count.cast(), "count")] {
+        if pointer.is_null() {
+            return Err(Error::NullPointer { what });
+        }
+    }
+    let list = list()?;
+    // SAFETY: not null, and with room.
+    unsafe {
+        std::ptr::copy_nonoverlapping(list.as_ptr().cast::<u8>(), vertices.cast(), size_of_val(&list[..]));
+        count.write_unaligned(list.len());
+    }
+    Ok(())
+}

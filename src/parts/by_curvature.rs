@@ -1,0 +1,83 @@
+//! Segmentations by curvatures that are computed for the purpose.
+//!
+//! Cost: that of the curvatures, and of [`watershed`] or [`region_growing`].
+
+use super::region_growing::{RegionOptions, region_growing};
+use super::scalar_field::ScalarField;
+use super::segmentation::Segmentation;
+use super::shape::{shape_classes, shape_tolerance};
+use super::watershed::watershed;
+use crate::curvature::{CurvatureOptions, CurvatureOutputs, curvatures};
+use crate::error::Error;
+use crate::parallel::Run;
+use crate::topology::Topology;
+use crate::view::{Faces, Points, zeroed};
+
+/// The depth of basins of curvedness that [`watershed_of_curvedness`] merges by itself, in units of [`shape_tolerance`].
+pub const CURVEDNESS_DEPTH: f64 = 4.0;
+
+/// The share of the work that goes into curvatures, for progress.
+const SHARE: f64 = 0.8;
+
+/// [`watershed`] of the curvedness of the vertices; `depth` is in 1/length, by default [`CURVEDNESS_DEPTH`] by [`shape_tolerance`].
+///
+/// # Errors
+/// As [`watershed`] and [`curvatures`].
+pub fn watershed_of_curvedness(
+    faces: &Faces<'_>,
+    points: &Points<'_>,
+    depth: Option<f64>,
+    curvature: &CurvatureOptions<'_>,
+    mut run: Run<'_>,
+) -> Result<Segmentation, Error> {
+    let topology = Topology::with_threads(faces, points.len(), run.threads, run.level)?;
+    let depth = match depth {
+        Some(depth) => depth,
+        None => CURVEDNESS_DEPTH * shape_tolerance(points)?,
+    };
+    let mut curvedness: Vec<f64> = zeroed(points.len())?;
+    run.part_for(None, 0.0, SHARE, |run| {
+        let outputs =
+            CurvatureOutputs { curvedness: Some(curvedness.as_mut_slice().into()), ..CurvatureOutputs::default() };
+        curvatures(&topology, points, curvature, run, &outputs)
+    })?;
+    drop(topology);
+    let height = ScalarField::Vertices(curvedness.as_slice().into());
+    run.part_for(None, SHARE, 1.0, |run| watershed(faces, points.len(), &height, depth, run))
+}
+
+/// [`region_growing`] by the [`shape_classes`] of the vertices; `tolerance` is in 1/length, by default [`shape_tolerance`].
+///
+/// # Errors
+/// As [`region_growing`], [`shape_classes`] and [`curvatures`].
+pub fn regions_of_shape(
+    faces: &Faces<'_>,
+    points: &Points<'_>,
+    tolerance: Option<f64>,
+    curvature: &CurvatureOptions<'_>,
+    options: &RegionOptions,
+    mut run: Run<'_>,
+) -> Result<Segmentation, Error> {
+    let topology = Topology::with_threads(faces, points.len(), run.threads, run.level)?;
+    let tolerance = match tolerance {
+        Some(tolerance) => tolerance,
+        None => shape_tolerance(points)?,
+    };
+    let mut classes: Vec<u8> = zeroed(points.len())?;
+    let mut statuses: Vec<u8> = zeroed(points.len())?;
+    let [mut k1, mut k2]: [Vec<f64>; 2] = [zeroed(points.len())?, zeroed(points.len())?];
+    run.part_for(None, 0.0, SHARE, |run| {
+        let outputs = CurvatureOutputs {
+            k1: Some(k1.as_mut_slice().into()),
+            k2: Some(k2.as_mut_slice().into()),
+            status: Some(statuses.as_mut_slice().into()),
+            ..CurvatureOutputs::default()
+        };
+        curvatures(&topology, points, curvature, run, &outputs)
+    })?;
+    drop(topology);
+    let quiet = Run { threads: run.threads, level: run.level, ..Run::default() };
+    let (k1, k2) = (k1.as_slice().into(), k2.as_slice().into());
+    shape_classes(&k1, &k2, Some(&statuses), tolerance, quiet, &classes.as_mut_slice().into())?;
+    run.part_for(None, SHARE, 1.0, |run| region_growing(faces, points, &classes, options, run))
+}
