@@ -30,7 +30,7 @@ fn linear(place: f64) -> [f64; 3] {
 }
 
 /// From OKLab to linear sRGB, with the matrices of its definition.
-fn oklab_to_linear([lightness, a, b]: [f64; 3]) -> [f64; 3] {
+pub fn oklab_to_linear([lightness, a, b]: [f64; 3]) -> [f64; 3] {
     let cones = [
         lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b,
         lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b,
@@ -46,7 +46,7 @@ fn oklab_to_linear([lightness, a, b]: [f64; 3]) -> [f64; 3] {
 }
 
 /// Encodes linear light as a byte of sRGB.
-fn encode(value: f64) -> u8 {
+pub fn encode(value: f64) -> u8 {
     let value = value.clamp(0.0, 1.0);
     let encoded = if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8

@@ -64,8 +64,20 @@ pub fn cut(mesh: &PolygonMesh, angle: f64, threads: usize) -> Result<CutMesh, Er
     Ok(CutMesh { parts, mesh: cut })
 }
 
+/// A unit normal for each corner of a mesh, split at edges sharper than `angle`, in radians; zero where there is none.
+pub fn corner_normals(
+    mesh: &PolygonMesh,
+    angle: f64,
+    weight: Weight,
+    threads: usize,
+) -> Result<Vec<[f32; 3]>, Error> {
+    let cut = cut(mesh, angle, threads)?;
+    let found = vertex_normals(&cut.mesh, cut.parts.topology(), weight, threads)?;
+    Ok(cut.mesh.indices.iter().map(|&vertex| found.normals[vertex as usize]).collect())
+}
+
 /// Runs a computation with a progress bar. `cost` is as in [`progress::computing`].
-fn with_progress<T>(mesh: &PolygonMesh, cost: usize, threads: usize, compute: impl FnOnce(Run<'_>) -> T) -> T {
+pub fn with_progress<T>(mesh: &PolygonMesh, cost: usize, threads: usize, compute: impl FnOnce(Run<'_>) -> T) -> T {
     let bar = progress::computing(mesh.vertex_count(), cost);
     let mut show = |done: f64| {
         bar.set_position((done * progress::WHOLE) as u64);
@@ -168,6 +180,24 @@ pub fn vertex_curvatures(
         umbilic::curvatures(topology, &Points::from(&mesh.positions), options, run, &outputs)
     })?;
     Ok(found)
+}
+
+/// The number of the shape class of each vertex, from its principal curvatures, and the tolerance for that: the one given,
+/// or else one that goes with the size of the mesh.
+pub fn shape_classes(
+    mesh: &PolygonMesh,
+    found: &VertexCurvatures,
+    tolerance: Option<f64>,
+) -> Result<(Vec<u8>, f64), Error> {
+    let tolerance = match tolerance {
+        Some(tolerance) => tolerance,
+        None => umbilic::shape_tolerance(&Points::from(&mesh.positions))?,
+    };
+    let mut classes = vec![0; mesh.vertex_count()];
+    let [k1, k2] = [Quantity::K1, Quantity::K2].map(|quantity| found.quantity(quantity).unwrap_or_default().into());
+    let output = classes.as_mut_slice().into();
+    umbilic::shape_classes(&k1, &k2, Some(&found.status), tolerance, Run::default(), &output)?;
+    Ok((classes, tolerance))
 }
 
 /// What the library finds at each vertex of a polyline.

@@ -1,24 +1,27 @@
-//! The program `umbilic`: vertex normals, curvatures, facts and pictures of meshes in files, and curvatures of polylines.
+//! The program `umbilic`: vertex normals, curvatures, segments, facts and pictures of meshes in files, and curvatures of polylines.
 //!
 //! Each of the [`commands`] has a file of its own. What they share: [`args`] (value parsers), [`compute`] (calls of the
 //! library), [`read`], [`write`], [`render`] and [`generate`] for a [`mesh`], [`progress`] bars and printed [`table`]s.
-//! For colors: a [`quantity`] goes by its [`quantiles`] to a [`scale`], by this to the [`colormap`] and its [`colorbar`].
-//! A [`summary`] tells of them.
+//! For colors: a [`quantity`] goes by its [`quantiles`] to a [`scale`], by this to the [`colormap`] and its [`colorbar`]; which
+//! of them, or classes of shape, is a [`coloring`]. A [`summary`] tells of them. [`segments`] have the colors of a [`palette`].
 
 mod args;
 mod colorbar;
+mod coloring;
 mod colormap;
 mod commands;
 mod compute;
 mod generate;
 mod mesh;
 mod output;
+mod palette;
 mod progress;
 mod quantiles;
 mod quantity;
 mod read;
 mod render;
 mod scale;
+mod segments;
 mod summary;
 mod table;
 mod write;
@@ -28,7 +31,7 @@ use commands::Command;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Vertex normals and curvatures of polygon meshes, curvatures of polylines.
+/// Vertex normals, curvatures and segments of polygon meshes, curvatures of polylines.
 ///
 /// Reads meshes from OBJ, PLY, STL and OFF files. Polygons are used as they are, not cut into triangles first.
 #[derive(Parser)]
@@ -45,6 +48,7 @@ Examples:
   umbilic normals torus.ply -o with-normals.ply
   umbilic corners bracket.stl -o split-at-sharp-edges.ply
   umbilic curvature torus.ply -o with-curvatures.ply
+  umbilic segment bracket.stl -o labels.ply --picture segments.png
   umbilic render torus.ply -o torus.png --color mean
   umbilic polyline outline.txt --closed
 

@@ -1,9 +1,9 @@
 //! What is told of the curvatures of a mesh: spreads, totals and statuses, as tables or JSON.
 
+use crate::coloring::Coloring;
 use crate::compute::{VertexCurvatures, has_result};
 use crate::quantiles::Sorted;
 use crate::quantity::Quantity;
-use crate::scale::Scale;
 use crate::table;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -22,7 +22,7 @@ pub struct Summary<'a> {
     /// What the library has found.
     pub found: &'a VertexCurvatures,
     /// What the colors show.
-    pub colors: Option<(Quantity, Scale)>,
+    pub coloring: Option<Coloring>,
     /// The picture of the colors.
     pub bar: Option<PathBuf>,
     /// What took how long.
@@ -67,7 +67,7 @@ impl Summary<'_> {
             let exact = self.gauss_bonnet().map(|exact| format!(" (2πχ = {})", table::number(exact)));
             ("integral of Gaussian curvature", table::number(gaussian) + &exact.unwrap_or_default())
         }));
-        rows.extend(self.colors.map(|(quantity, scale)| ("colors", scale.describe(quantity))));
+        rows.extend(self.coloring.as_ref().map(|coloring| ("colors", coloring.describe())));
         rows.extend(self.bar.as_ref().map(|bar| ("color bar", bar.display().to_string())));
         rows.push(("time", self.times.map(|(key, time)| format!("{key} {time:.1?}")).join(", ")));
 
@@ -110,12 +110,11 @@ impl Summary<'_> {
             "integrated_gaussian": gaussian,
             "gauss_bonnet": gaussian.and_then(|_| self.gauss_bonnet()),
             "status": counts,
-            "color": self.colors.map(|(quantity, scale)| json!({
-                "quantity": quantity.name(),
-                "low": scale.low,
-                "high": scale.high,
-                "bar": self.bar.as_ref().map(|bar| bar.display().to_string()),
-            })),
+            "color": self.coloring.as_ref().map(|coloring| {
+                let mut object = coloring.json();
+                object.insert("bar".to_owned(), self.bar.as_ref().map(|bar| bar.display().to_string()).into());
+                object
+            }),
             "seconds": seconds,
         })
     }

@@ -1,12 +1,12 @@
 //! How curvatures of meshes are computed, as options on the command line.
 
 use super::{positive, weight, weight_with};
-use crate::quantity::Quantity;
+use crate::coloring::Subject;
 use clap::Args;
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::Path;
-use umbilic::{AdaptiveModel, CurvatureOptions, Error, Method, Section, VertexNormals, Weight};
+use umbilic::{AdaptiveModel, CurvatureKind, CurvatureOptions, Error, Method, Section, VertexNormals, Weight};
 
 /// How curvatures are computed. Nothing that is given goes unused: what a method does not have is refused.
 #[derive(Args)]
@@ -63,10 +63,33 @@ impl CurvatureEstimator {
         })
     }
 
-    /// Refuses a quantity that the method does not have.
-    pub fn check(&self, color: Quantity) -> Result<(), String> {
+    /// Refuses colors of what the method does not have.
+    pub fn check(&self, color: Subject) -> Result<(), String> {
         let name = color.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned());
-        if self.method().has(color.kind()) { Ok(()) } else { Err(self.refusal(&format!("--color {name}"))) }
+        self.check_kind(color.kind(), &format!("--color {name}"))
+    }
+
+    /// Refuses an option that asks for what the method does not have.
+    pub fn check_kind(&self, kind: CurvatureKind, option: &str) -> Result<(), String> {
+        if self.method().has(kind) { Ok(()) } else { Err(self.refusal(option)) }
+    }
+
+    /// Refuses all of this where no curvature is asked for.
+    pub fn refuse(&self, what: &str) -> Result<(), String> {
+        let Self { method, section, normal, ring, degree, radius } = self;
+        for (name, given) in [
+            ("--method", method.is_some()),
+            ("--section", section.is_some()),
+            ("--normal", normal.is_some()),
+            ("--ring", ring.is_some()),
+            ("--degree", degree.is_some()),
+            ("--radius", radius.is_some()),
+        ] {
+            if given {
+                return Err(format!("{name} is for curvatures, not for {what}"));
+            }
+        }
+        Ok(())
     }
 
     fn refusal(&self, what: &str) -> String {

@@ -2,9 +2,14 @@
 
 mod curvature;
 mod scale;
+mod segmenter;
+mod view;
 
 pub use curvature::{CurvatureEstimator, model_rows};
 pub use scale::ColorScale;
+pub use segmenter::Segmenter;
+use segmenter::tolerance;
+pub use view::View;
 
 use crate::render::{LARGEST_SIDE, UpAxis};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -108,7 +113,7 @@ fn file_of(extension: &str, name: &str) -> Result<PathBuf, String> {
 }
 
 /// A width and a height in pixels.
-pub fn size(text: &str) -> Result<[u32; 2], String> {
+fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
     match sides {
         Some(sides) if sides.iter().all(|side| (1..=LARGEST_SIDE).contains(side)) => Ok(sides),
@@ -118,7 +123,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// An angle in degrees.
-pub fn angle(text: &str) -> Result<f64, String> {
+fn angle(text: &str) -> Result<f64, String> {
     let degrees: Option<f64> = text.parse().ok();
     degrees.filter(|degrees| degrees.is_finite()).ok_or_else(|| "expected a number of degrees".to_owned())
 }

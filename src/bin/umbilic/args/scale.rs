@@ -1,12 +1,14 @@
 //! Which numbers get which colors, as options on the command line.
 
-use super::{png_file, positive};
-use crate::compute::VertexCurvatures;
+use super::{png_file, positive, tolerance};
+use crate::coloring::{Coloring, Subject};
+use crate::compute::{self, VertexCurvatures};
 use crate::mesh::PolygonMesh;
 use crate::quantity::Quantity;
 use crate::scale::{PERCENTILE, Scale};
 use clap::Args;
 use std::path::PathBuf;
+use umbilic::Error;
 
 /// Which numbers get which colors.
 #[derive(Args)]
@@ -23,19 +25,56 @@ pub struct ColorScale {
     /// Draw the colors with their numbers into this PNG file.
     #[arg(long, value_name = "BAR.png", value_parser = png_file)]
     pub colorbar: Option<PathBuf>,
+    /// With --color shape, curvatures of up to this, in 1/length, count as none [default: 1 by the diagonal of the bounding
+    /// box].
+    #[arg(long, value_name = "X", value_parser = tolerance)]
+    tolerance: Option<f64>,
 }
 
 impl ColorScale {
     /// Refuses all of this where nothing gets colors.
     pub fn refuse(&self) -> Result<(), String> {
+        self.refuse_range()?;
+        self.refuse_tolerance()
+    }
+
+    /// Refuses what the colors of a subject do not have.
+    pub fn check(&self, subject: Subject) -> Result<(), String> {
+        match subject {
+            Subject::Quantity(_) => self.refuse_tolerance(),
+            Subject::Shape => self.refuse_range(),
+        }
+    }
+
+    fn refuse_range(&self) -> Result<(), String> {
         match self.range.is_some() || self.percentile.is_some() || self.colorbar.is_some() {
             true => Err("--range, --percentile and --colorbar are for colors of curvatures".to_owned()),
             false => Ok(()),
         }
     }
 
+    fn refuse_tolerance(&self) -> Result<(), String> {
+        if self.tolerance.is_some() { Err("--tolerance is for --color shape".to_owned()) } else { Ok(()) }
+    }
+
+    /// The colors of a subject that the method has.
+    pub fn coloring(
+        &self,
+        subject: Subject,
+        mesh: &PolygonMesh,
+        found: &VertexCurvatures,
+    ) -> Result<Coloring, Error> {
+        match subject {
+            Subject::Quantity(quantity) => Ok(Coloring::Scale(quantity, self.scale(quantity, mesh, found))),
+            Subject::Shape => {
+                let (classes, tolerance) = compute::shape_classes(mesh, found, self.tolerance)?;
+                Ok(Coloring::Shape { classes, tolerance })
+            }
+        }
+    }
+
     /// The scale for a quantity that the method has.
-    pub fn scale(&self, quantity: Quantity, mesh: &PolygonMesh, found: &VertexCurvatures) -> Scale {
+    fn scale(&self, quantity: Quantity, mesh: &PolygonMesh, found: &VertexCurvatures) -> Scale {
         /// Curvatures smaller than this by the size of the mesh are rounding errors.
         const ROUNDING: f64 = 1e-9;
         if let Some([low, high]) = self.range {

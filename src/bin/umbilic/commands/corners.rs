@@ -5,9 +5,9 @@ use super::normals::COUNTS;
 use crate::args;
 use crate::compute::{self, blame};
 use crate::read::read_mesh;
-use crate::render::{RenderOptions, UpAxis, render_png};
+use crate::render::{Normals, Surface, render_png};
 use crate::table::table;
-use crate::write::{Column, ColumnValues, PlyFormat, VertexProperties, write_ply};
+use crate::write::{Column, ColumnValues, PlyFormat, Properties, write_ply};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -37,9 +37,6 @@ pub struct Corners {
     /// Draw the mesh with these normals into a PNG file as well.
     #[arg(long, value_name = "OUT.png", value_parser = args::png_file)]
     picture: Option<PathBuf>,
-    /// The axis that points up in the picture.
-    #[arg(long, value_enum, default_value = "y")]
-    up: UpAxis,
     /// Write text instead of binary numbers.
     #[arg(long)]
     ascii: bool,
@@ -49,12 +46,17 @@ pub struct Corners {
     /// Print one JSON object instead of a table.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    view: args::View,
 }
 
 impl Corners {
     /// Runs the command.
     pub fn run(&self) -> Outcome {
         let weight = self.estimator.weight()?;
+        if self.picture.is_none() {
+            self.view.refuse()?;
+        }
         let start = Instant::now();
         let mesh = read_mesh(&self.input)?;
         let read = Instant::now();
@@ -65,17 +67,16 @@ impl Corners {
             .map_err(blame(&self.input))?;
         let computed = Instant::now();
         let colors: Vec<[u8; 3]> =
-            found.normals.iter().map(|normal| normal.map(|x| (127.5 + 127.5 * x) as u8)).collect();
-        let properties = VertexProperties {
+            found.normals.iter().map(|normal| normal.map(|x| (127.5 + 127.5 * x).round() as u8)).collect();
+        let properties = Properties {
             normals: Some(&found.normals),
             columns: vec![Column { name: "status", values: ColumnValues::Byte(&found.status) }],
             colors: Some(&colors),
         };
         let format = if self.ascii { PlyFormat::Ascii } else { PlyFormat::BinaryLittleEndian };
-        write_ply(&self.output, &cut.mesh, &properties, format)?;
+        write_ply(&self.output, &cut.mesh, &properties, &Properties::default(), format)?;
         if let Some(picture) = &self.picture {
-            let options = RenderOptions { up: self.up, ..RenderOptions::default() };
-            render_png(picture, &cut.mesh, &found.normals, &options)?;
+            render_png(picture, &cut.mesh, Normals::Vertices(&found.normals), &self.view.options(Surface::Clay))?;
         }
         let times = [
             ("read", read - start),

@@ -3,13 +3,14 @@
 use super::Outcome;
 use crate::args;
 use crate::colorbar::write_colorbar;
+use crate::coloring::{Coloring, Subject};
 use crate::compute::{self, VertexCurvatures};
 use crate::mesh::PolygonMesh;
 use crate::quantity::Quantity;
 use crate::read::read_mesh;
 use crate::scale::Scale;
 use crate::summary::Summary;
-use crate::write::{Column, ColumnValues, PlyFormat, VertexProperties, write_ply};
+use crate::write::{Column, ColumnValues, PlyFormat, Properties, write_ply};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -29,6 +30,9 @@ use umbilic::Method;
 /// isolated, 16 something that the input leaves undetermined was filled in, 32 no result, 64 the neighbourhood was
 /// widened, 128 a sharp vertex (with 16: on a crease). Adaptive jets print what they learned of the mesh: the noise of its positions
 /// along the normal, the typical length of an edge, and how many rings they looked at. Numbers are zero where there is no result.
+///
+/// With --color shape the file has the class of each vertex as shape: 0 undefined, 1 peak, 2 ridge, 3 saddle-ridge, 4 flat, 5
+/// minimal, 6 pit, 7 valley, 8 saddle-valley.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
@@ -63,17 +67,17 @@ pub struct Curvature {
 /// What the colors show.
 #[derive(Clone, Copy)]
 enum Color {
-    Quantity(Quantity),
+    Subject(Subject),
     Nothing,
 }
 
 impl ValueEnum for Color {
     fn value_variants<'a>() -> &'a [Self] {
-        const VARIANTS: [Color; Quantity::ALL.len() + 1] = {
-            let mut variants = [Color::Nothing; Quantity::ALL.len() + 1];
+        const VARIANTS: [Color; Subject::ALL.len() + 1] = {
+            let mut variants = [Color::Nothing; Subject::ALL.len() + 1];
             let mut index = 0;
-            while index < Quantity::ALL.len() {
-                variants[index] = Color::Quantity(Quantity::ALL[index]);
+            while index < Subject::ALL.len() {
+                variants[index] = Color::Subject(Subject::ALL[index]);
                 index += 1;
             }
             variants
@@ -83,7 +87,7 @@ impl ValueEnum for Color {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         match self {
-            Color::Quantity(quantity) => quantity.to_possible_value(),
+            Color::Subject(subject) => subject.to_possible_value(),
             Color::Nothing => Some(PossibleValue::new("none").help("No colors")),
         }
     }
@@ -108,20 +112,23 @@ impl Curvature {
         }
         let found = compute::vertex_curvatures(&mesh, &topology, &options, self.threads.into()).map_err(&blame)?;
         let computed = Instant::now();
-        let colors = color.map(|quantity| (quantity, self.scale.scale(quantity, &mesh, &found)));
-        let bar = match &colors {
-            Some((_, scale)) => self.write_bar(scale)?,
+        let coloring = match color {
+            Some(subject) => Some(self.scale.coloring(subject, &mesh, &found).map_err(&blame)?),
+            None => None,
+        };
+        let bar = match coloring.as_ref().and_then(Coloring::scale) {
+            Some(scale) => self.write_bar(scale)?,
             None => None,
         };
         if let Some(output) = &self.output {
-            self.write(output, &mesh, &found, colors)?;
+            self.write(output, &mesh, &found, coloring.as_ref())?;
         }
         let summary = Summary {
             stats: topology.stats().map_err(&blame)?,
             options: rows,
             adds_up: self.options.adds_up(),
             found: &found,
-            colors,
+            coloring,
             bar,
             times: [
                 ("read", read - start),
@@ -134,15 +141,23 @@ impl Curvature {
     }
 
     /// What the colors are to show.
-    fn color(&self) -> Result<Option<Quantity>, String> {
-        match self.color {
-            Some(Color::Nothing) => self.scale.refuse().map(|()| None),
-            Some(Color::Quantity(quantity)) => self.options.check(quantity).map(|()| Some(quantity)),
+    fn color(&self) -> Result<Option<Subject>, String> {
+        let subject = match self.color {
+            Some(Color::Nothing) => None,
+            Some(Color::Subject(subject)) => Some(subject),
             None => {
                 let has = |quantity: &Quantity| self.options.method().has(quantity.kind());
-                Ok([Quantity::Mean, Quantity::Gaussian].into_iter().find(has))
+                [Quantity::Mean, Quantity::Gaussian].into_iter().find(has).map(Subject::Quantity)
             }
+        };
+        match subject {
+            Some(subject) => {
+                self.options.check(subject)?;
+                self.scale.check(subject)?;
+            }
+            None => self.scale.refuse()?,
         }
+        Ok(subject)
     }
 
     /// Draws the color bar where it is asked for, or else next to the mesh; tells where.
@@ -163,10 +178,9 @@ impl Curvature {
         path: &Path,
         mesh: &PolygonMesh,
         found: &VertexCurvatures,
-        colors: Option<(Quantity, Scale)>,
+        coloring: Option<&Coloring>,
     ) -> Result<(), crate::output::WriteError> {
-        let colors =
-            colors.map(|(quantity, scale)| scale.colors(found.quantity(quantity).unwrap_or_default(), &found.status));
+        let colors = coloring.map(|coloring| coloring.colors(found));
         let mut columns: Vec<Column<'_>> = Quantity::ALL
             .into_iter()
             .filter_map(|quantity| {
@@ -182,9 +196,12 @@ impl Curvature {
                 );
             }
         }
+        if let Some(classes) = coloring.and_then(Coloring::classes) {
+            columns.push(Column { name: "shape", values: ColumnValues::Byte(classes) });
+        }
         columns.push(Column { name: "status", values: ColumnValues::Byte(&found.status) });
-        let properties = VertexProperties { normals: Some(&found.normals), columns, colors: colors.as_deref() };
+        let properties = Properties { normals: Some(&found.normals), columns, colors: colors.as_deref() };
         let format = if self.ascii { PlyFormat::Ascii } else { PlyFormat::BinaryLittleEndian };
-        write_ply(path, mesh, &properties, format)
+        write_ply(path, mesh, &properties, &Properties::default(), format)
     }
 }

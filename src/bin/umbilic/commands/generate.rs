@@ -1,7 +1,7 @@
 //! `umbilic generate`: writes a sample mesh as a PLY file.
 
 use super::Outcome;
-use crate::write::{PlyFormat, VertexProperties, write_ply};
+use crate::write::{PlyFormat, Properties, write_ply};
 use crate::{args, generate};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -48,7 +48,13 @@ impl Generate {
             Shape::Torus => generate::torus(self.resolution),
             Shape::Cube => generate::cube(),
         };
-        write_ply(&self.output, &mesh, &VertexProperties::default(), PlyFormat::BinaryLittleEndian)?;
+        write_ply(
+            &self.output,
+            &mesh,
+            &Properties::default(),
+            &Properties::default(),
+            PlyFormat::BinaryLittleEndian,
+        )?;
         Ok(format!("{} vertices, {} faces\n", mesh.vertex_count(), mesh.face_count()))
     }
 }

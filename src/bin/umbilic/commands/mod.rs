@@ -7,6 +7,7 @@ mod info;
 mod normals;
 mod polyline;
 mod render;
+mod segment;
 
 use clap::Subcommand;
 use std::error::Error;
@@ -19,6 +20,7 @@ pub enum Command {
     Normals(normals::Normals),
     Corners(corners::Corners),
     Curvature(curvature::Curvature),
+    Segment(segment::Segment),
     Polyline(polyline::Polyline),
     Info(info::Info),
     Render(render::Render),
@@ -32,6 +34,7 @@ impl Command {
             Command::Normals(command) => command.run(),
             Command::Corners(command) => command.run(),
             Command::Curvature(command) => command.run(),
+            Command::Segment(command) => command.run(),
             Command::Polyline(command) => command.run(),
             Command::Info(command) => command.run(),
             Command::Render(command) => command.run(),

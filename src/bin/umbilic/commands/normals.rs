@@ -5,7 +5,7 @@ use crate::args;
 use crate::compute::{self, VertexNormals, blame};
 use crate::read::read_mesh;
 use crate::table::table;
-use crate::write::{Column, ColumnValues, PlyFormat, VertexProperties, write_ply};
+use crate::write::{Column, ColumnValues, PlyFormat, Properties, write_ply};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -65,13 +65,13 @@ impl Normals {
         let VertexNormals { normals, status } =
             compute::vertex_normals(&mesh, &topology, weight, self.threads.into()).map_err(blame(&self.input))?;
         let computed = Instant::now();
-        let properties = VertexProperties {
+        let properties = Properties {
             normals: Some(&normals),
             columns: vec![Column { name: "status", values: ColumnValues::Byte(&status) }],
-            ..VertexProperties::default()
+            ..Properties::default()
         };
         let format = if self.ascii { PlyFormat::Ascii } else { PlyFormat::BinaryLittleEndian };
-        write_ply(&self.output, &mesh, &properties, format)?;
+        write_ply(&self.output, &mesh, &properties, &Properties::default(), format)?;
 
         let times = [
             ("read", read - start),

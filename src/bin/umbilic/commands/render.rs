@@ -3,10 +3,10 @@
 use super::Outcome;
 use crate::args;
 use crate::colorbar::write_colorbar;
+use crate::coloring::Subject;
 use crate::compute::{self, blame};
-use crate::quantity::Quantity;
 use crate::read::read_mesh;
-use crate::render::{Projection, RenderOptions, Surface, UpAxis, render_png};
+use crate::render::{Normals, Surface, render_png};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// The camera looks at the mesh from the front, moved by --azimuth to the right and by --elevation upwards, and sees
 /// all of it. Faces are lit on both sides. Colors of curvatures are those of umbilic curvature, mildly shaded: blue is
 /// negative, red positive (a sphere with outward normals), nearly white 0, gray where there is no result. The numbers
-/// at the ends of the colors are printed.
+/// at the ends of the colors are printed, and with --color shape the color of each class.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
@@ -32,21 +32,12 @@ pub struct Render {
     /// What the surface looks like.
     #[arg(long, value_enum, default_value = "clay")]
     color: Color,
-    /// The width and height in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = args::size)]
-    size: [u32; 2],
-    /// How far the camera goes around the mesh to the right, in degrees.
-    #[arg(long, value_name = "DEGREES", default_value = "30", allow_hyphen_values = true, value_parser = args::angle)]
-    azimuth: f64,
-    /// How far the camera rises above the mesh, in degrees.
-    #[arg(long, value_name = "DEGREES", default_value = "20", allow_hyphen_values = true, value_parser = args::angle)]
-    elevation: f64,
-    /// The axis that points up.
-    #[arg(long, value_enum, default_value = "y")]
-    up: UpAxis,
-    /// Draw without perspective: parallel lines stay parallel.
-    #[arg(long)]
-    orthographic: bool,
+    /// With clay and normals, split normals where those of two faces differ by more than this, in degrees, so that sharp
+    /// edges look sharp; --weight angle goes well with it.
+    #[arg(long, value_name = "DEGREES", value_parser = args::crease_angle)]
+    crease_angle: Option<f64>,
+    #[command(flatten)]
+    view: args::View,
     #[command(flatten)]
     curvature: args::CurvatureEstimator,
     #[command(flatten)]
@@ -58,17 +49,17 @@ pub struct Render {
 enum Color {
     Clay,
     Normals,
-    Curvature(Quantity),
+    Subject(Subject),
 }
 
 impl ValueEnum for Color {
     fn value_variants<'a>() -> &'a [Self] {
-        const VARIANTS: [Color; Quantity::ALL.len() + 2] = {
-            let mut variants = [Color::Clay; Quantity::ALL.len() + 2];
+        const VARIANTS: [Color; Subject::ALL.len() + 2] = {
+            let mut variants = [Color::Clay; Subject::ALL.len() + 2];
             variants[1] = Color::Normals;
             let mut index = 0;
-            while index < Quantity::ALL.len() {
-                variants[index + 2] = Color::Curvature(Quantity::ALL[index]);
+            while index < Subject::ALL.len() {
+                variants[index + 2] = Color::Subject(Subject::ALL[index]);
                 index += 1;
             }
             variants
@@ -82,7 +73,7 @@ impl ValueEnum for Color {
             Color::Normals => {
                 Some(PossibleValue::new("normals").help("Not lit: x, y and z of the normal as red, green and blue"))
             }
-            Color::Curvature(quantity) => quantity.to_possible_value(),
+            Color::Subject(subject) => subject.to_possible_value(),
         }
     }
 }
@@ -93,7 +84,7 @@ impl Render {
         match self.color {
             Color::Clay => self.draw_normals(Surface::Clay),
             Color::Normals => self.draw_normals(Surface::NormalColors),
-            Color::Curvature(quantity) => self.draw_curvature(quantity),
+            Color::Subject(subject) => self.draw_curvature(subject),
         }
     }
 
@@ -101,39 +92,37 @@ impl Render {
         let weight = self.curvature.weight()?;
         self.scale.refuse()?;
         let mesh = read_mesh(&self.input)?;
-        let topology = compute::topology(&mesh).map_err(blame(&self.input))?;
-        let found = compute::vertex_normals(&mesh, &topology, weight, 0).map_err(blame(&self.input))?;
-        render_png(&self.output, &mesh, &found.normals, &self.options(surface))?;
+        let blame = blame(&self.input);
+        let options = self.view.options(surface);
+        if let Some(angle) = self.crease_angle {
+            let normals = compute::corner_normals(&mesh, angle.to_radians(), weight, 0).map_err(&blame)?;
+            render_png(&self.output, &mesh, Normals::Corners(&normals), &options)?;
+        } else {
+            let topology = compute::topology(&mesh).map_err(&blame)?;
+            let found = compute::vertex_normals(&mesh, &topology, weight, 0).map_err(&blame)?;
+            render_png(&self.output, &mesh, Normals::Vertices(&found.normals), &options)?;
+        }
         Ok(String::new())
     }
 
-    fn draw_curvature(&self, quantity: Quantity) -> Outcome {
+    fn draw_curvature(&self, subject: Subject) -> Outcome {
         let options = self.curvature.options()?;
-        self.curvature.check(quantity)?;
+        self.curvature.check(subject)?;
+        self.scale.check(subject)?;
+        if self.crease_angle.is_some() {
+            return Err("--crease-angle is for --color clay and normals".into());
+        }
         let mesh = read_mesh(&self.input)?;
         let blame = self.curvature.blame(&self.input);
         let topology = compute::topology(&mesh).map_err(&blame)?;
         let found = compute::vertex_curvatures(&mesh, &topology, &options, 0).map_err(&blame)?;
-        let scale = self.scale.scale(quantity, &mesh, &found);
-        let colors = scale.colors(found.quantity(quantity).unwrap_or_default(), &found.status);
-        render_png(&self.output, &mesh, &found.normals, &self.options(Surface::VertexColors(&colors)))?;
-        if let Some(bar) = &self.scale.colorbar {
-            write_colorbar(bar, &scale)?;
+        let coloring = self.scale.coloring(subject, &mesh, &found).map_err(&blame)?;
+        let colors = coloring.colors(&found);
+        let options = self.view.options(Surface::VertexColors(&colors));
+        render_png(&self.output, &mesh, Normals::Vertices(&found.normals), &options)?;
+        if let (Some(bar), Some(scale)) = (&self.scale.colorbar, coloring.scale()) {
+            write_colorbar(bar, scale)?;
         }
-        Ok(format!("{}\n", scale.describe(quantity)))
-    }
-
-    fn options<'a>(&self, surface: Surface<'a>) -> RenderOptions<'a> {
-        let [width, height] = self.size;
-        RenderOptions {
-            width,
-            height,
-            azimuth: self.azimuth,
-            elevation: self.elevation,
-            up: self.up,
-            projection: if self.orthographic { Projection::Orthographic } else { Projection::Perspective },
-            surface,
-            ..RenderOptions::default()
-        }
+        Ok(format!("{}\n", coloring.describe()))
     }
 }

@@ -3,9 +3,8 @@
 //! The camera looks at the center of the vertices in use; afterwards the projected mesh is moved and magnified to
 //! fill the canvas. Everything is in double precision, so that meshes far from the origin keep their details.
 
-use super::light::to_linear;
 use super::raster::{Corner, Shade};
-use super::{Projection, RenderOptions, SAMPLES, Surface, UpAxis};
+use super::{Projection, RenderOptions, SAMPLES, UpAxis};
 use crate::mesh::PolygonMesh;
 
 /// The part of the picture that the mesh may fill.
@@ -13,9 +12,6 @@ const FILLED: f64 = 0.9;
 
 /// The distance of the perspective camera, in radii of the mesh.
 const CAMERA_DISTANCE: f64 = 4.0;
-
-/// The color of clay in linear light.
-const CLAY: [f32; 3] = [0.60, 0.54, 0.48];
 
 /// Where the camera stands and what it sees of the mesh.
 pub(super) struct Camera {
@@ -101,14 +97,9 @@ impl Camera {
         }
     }
 
-    /// Puts a triangle on the canvas.
-    pub(super) fn see(
-        &self,
-        triangle: [(u32, [f64; 3]); 3],
-        normals: &[[f32; 3]],
-        surface: Surface<'_>,
-    ) -> [Corner; 3] {
-        let [a, b, c] = triangle.map(|(_, position)| self.place(position));
+    /// Puts a triangle on the canvas. What is lit has its normals in the camera's axes; else they stay.
+    pub(super) fn see(&self, triangle: [([f64; 3], Shade); 3], lit: bool) -> [Corner; 3] {
+        let [a, b, c] = triangle.map(|(position, _)| self.place(position));
         let normal = cross(subtract(b, a), subtract(c, a));
         let viewer = match self.projection {
             Projection::Perspective => subtract([0.0, 0.0, CAMERA_DISTANCE], a),
@@ -116,16 +107,8 @@ impl Camera {
         };
         let sign = if dot(normal, viewer) < 0.0 { -1.0 } else { 1.0 };
         let front = normal.map(|value| value * sign);
-        triangle.map(|(vertex, position)| {
+        triangle.map(|(position, shade)| {
             let ([x, y], depth, nearness) = self.project(position);
-            let normal = normals[vertex as usize];
-            let (normal, color) = match surface {
-                Surface::NormalColors => (normal, [0.0; 3]),
-                Surface::Clay => (self.face_viewer(normal, front), CLAY),
-                Surface::VertexColors(colors) => {
-                    (self.face_viewer(normal, front), colors[vertex as usize].map(to_linear))
-                }
-            };
             Corner {
                 place: [
                     self.canvas[0] / 2.0 + (x - self.middle[0]) * self.zoom,
@@ -133,7 +116,7 @@ impl Camera {
                 ],
                 depth: depth as f32,
                 nearness: nearness as f32,
-                shade: Shade { normal, color },
+                shade: if lit { Shade { normal: self.face_viewer(shade.normal, front), ..shade } } else { shade },
             }
         })
     }

@@ -5,6 +5,9 @@
 
 use super::raster::Shade;
 
+/// The color of clay in linear light.
+pub(super) const CLAY: [f32; 3] = [0.60, 0.54, 0.48];
+
 /// The color that stands for a normal.
 pub(super) fn show_normal(shade: Shade) -> [f32; 3] {
     unit(shade.normal).map(|value| srgb_to_linear(value * 0.5 + 0.5))

@@ -1,7 +1,7 @@
 //! Draws a shaded picture of a mesh into a PNG file, in software, without a GPU.
 //!
-//! The picture shows the normals it is given: they are interpolated over the triangles and lit per pixel by lights
-//! that are fixed to the camera. Both sides of a surface are lit alike, so reversed faces or normals show up in
+//! The picture shows the normals it is given, at vertices or at corners: they are interpolated over the triangles and lit
+//! per pixel by lights that are fixed to the camera. Both sides of a surface are lit alike, so reversed faces or normals show up in
 //! [`Surface::NormalColors`] but not in the other modes. The view is fitted to the vertices in use. Pictures are
 //! drawn at twice their size and averaged down. Surfaces are opaque; there are no shadows, and what lies exactly in
 //! the same place is drawn in the order of the faces.
@@ -16,8 +16,8 @@ use crate::output::{WriteError, write_file};
 use camera::Camera;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
-use light::{light, shade_mildly, show_normal, to_linear, to_srgb};
-use raster::Canvas;
+use light::{CLAY, light, shade_mildly, show_normal, to_linear, to_srgb};
+use raster::{Canvas, Shade};
 use std::path::Path;
 use triangulate::Triangulator;
 
@@ -89,15 +89,47 @@ pub enum Surface<'a> {
     Clay,
     /// One color per vertex, lit so mildly that it can be told apart from its neighbors in a colormap.
     VertexColors(&'a [[u8; 3]]),
+    /// One color per face, lit as mildly.
+    FaceColors(&'a [[u8; 3]]),
     /// Not lit: the components of the normal from -1 to 1 are the amounts of red, green and blue.
     NormalColors,
 }
 
-/// Draws a mesh with one normal per vertex into a PNG file, which is replaced if it exists.
+impl Surface<'_> {
+    /// The color of a corner of a face, in linear light; black where the normal decides.
+    fn color(&self, face: usize, vertex: usize) -> [f32; 3] {
+        match self {
+            Surface::Clay => CLAY,
+            Surface::VertexColors(colors) => colors[vertex].map(to_linear),
+            Surface::FaceColors(colors) => colors[face].map(to_linear),
+            Surface::NormalColors => [0.0; 3],
+        }
+    }
+
+    /// What makes a color of a normal and a color.
+    fn paint(&self) -> fn(Shade) -> [f32; 3] {
+        match self {
+            Surface::Clay => light,
+            Surface::VertexColors(_) | Surface::FaceColors(_) => shade_mildly,
+            Surface::NormalColors => show_normal,
+        }
+    }
+}
+
+/// The normals that a surface is lit by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Normals<'a> {
+    /// One for each vertex.
+    Vertices(&'a [[f32; 3]]),
+    /// One for each corner of each face, as corners stand in the mesh's indices. Where those at a vertex differ, a crease shows.
+    Corners(&'a [[f32; 3]]),
+}
+
+/// Draws a mesh with its normals into a PNG file, which is replaced if it exists.
 pub fn render_png(
     path: &Path,
     mesh: &PolygonMesh,
-    normals: &[[f32; 3]],
+    normals: Normals<'_>,
     options: &RenderOptions<'_>,
 ) -> Result<(), WriteError> {
     let pixels = render(mesh, normals, options).map_err(|message| WriteError::new(path, message))?;
@@ -109,42 +141,56 @@ pub fn render_png(
 }
 
 /// Draws a mesh into rows of red, green and blue bytes.
-fn render(mesh: &PolygonMesh, normals: &[[f32; 3]], options: &RenderOptions<'_>) -> Result<Vec<u8>, String> {
-    let vertex_count = mesh.vertex_count();
-    if normals.len() != vertex_count {
-        let found = normals.len();
-        return Err(format!("{found} normals for {vertex_count} vertices"));
-    }
-    if let Surface::VertexColors(colors) = options.surface
-        && colors.len() != vertex_count
-    {
-        let found = colors.len();
-        return Err(format!("{found} colors for {vertex_count} vertices"));
-    }
-    for side in [options.width, options.height] {
-        if !(1..=LARGEST_SIDE).contains(&side) {
-            return Err(format!(
-                "a picture of {} by {} pixels is not between 1 and {LARGEST_SIDE} on each side",
-                options.width, options.height
-            ));
-        }
-    }
+fn render(mesh: &PolygonMesh, normals: Normals<'_>, options: &RenderOptions<'_>) -> Result<Vec<u8>, String> {
+    check(mesh, normals, options)?;
     let camera = Camera::new(mesh, options);
     let background = options.background.map(to_linear);
     let [width, height] = [options.width, options.height].map(|side| side as usize * SAMPLES);
     let mut canvas = Canvas::new(width, height, background);
     let mut triangulator = Triangulator::default();
-    for face in mesh.faces() {
-        for triangle in triangulator.triangulate(mesh, face) {
-            let corners = camera.see(triangle, normals, options.surface);
-            match options.surface {
-                Surface::NormalColors => canvas.fill(corners, show_normal),
-                Surface::VertexColors(_) => canvas.fill(corners, shade_mildly),
-                Surface::Clay => canvas.fill(corners, light),
-            }
+    let lit = options.surface != Surface::NormalColors;
+    let paint = options.surface.paint();
+    for (face, (vertices, &first)) in mesh.faces().zip(&mesh.offsets).enumerate() {
+        for triangle in triangulator.triangulate(mesh, vertices) {
+            let corners = triangle.map(|(corner, position)| {
+                let vertex = vertices[corner] as usize;
+                let normal = match normals {
+                    Normals::Vertices(normals) => normals[vertex],
+                    Normals::Corners(normals) => normals[first as usize + corner],
+                };
+                (position, Shade { normal, color: options.surface.color(face, vertex) })
+            });
+            canvas.fill(camera.see(corners, lit), paint);
         }
     }
     Ok(average(&canvas))
+}
+
+/// Checks that there is one of everything for each element, and the size of the picture.
+fn check(mesh: &PolygonMesh, normals: Normals<'_>, options: &RenderOptions<'_>) -> Result<(), String> {
+    let [vertices, corners, faces] =
+        [(mesh.vertex_count(), "vertices"), (mesh.indices.len(), "corners"), (mesh.face_count(), "faces")];
+    let normals = match normals {
+        Normals::Vertices(normals) => (normals.len(), "normals", vertices),
+        Normals::Corners(normals) => (normals.len(), "normals", corners),
+    };
+    let colors = match options.surface {
+        Surface::VertexColors(colors) => Some((colors.len(), "colors", vertices)),
+        Surface::FaceColors(colors) => Some((colors.len(), "colors", faces)),
+        Surface::Clay | Surface::NormalColors => None,
+    };
+    for (found, what, (count, elements)) in [Some(normals), colors].into_iter().flatten() {
+        if found != count {
+            return Err(format!("{found} {what} for {count} {elements}"));
+        }
+    }
+    let RenderOptions { width, height, .. } = *options;
+    if [width, height].iter().any(|side| !(1..=LARGEST_SIDE).contains(side)) {
+        return Err(format!(
+            "a picture of {width} by {height} pixels is not between 1 and {LARGEST_SIDE} on each side"
+        ));
+    }
+    Ok(())
 }
 
 /// Averages the samples of each pixel and encodes them.
@@ -204,7 +250,7 @@ mod tests {
         let normals = [[0.0, 0.0, 1.0]; 8];
         for projection in [Projection::Orthographic, Projection::Perspective] {
             let options = RenderOptions { projection, ..SMALL };
-            let picture = render(&mesh, &normals, &options).unwrap();
+            let picture = render(&mesh, Normals::Vertices(&normals), &options).unwrap();
             let blue = [128, 128, 255];
             // The square fills nine tenths of the height, 54 pixels.
             assert_eq!(pixel(&picture, 40, 10), [255; 3]);
@@ -223,10 +269,10 @@ mod tests {
         let normals: Vec<[f32; 3]> = mesh.positions.iter().map(normal).collect();
         let reversed: Vec<[f32; 3]> = normals.iter().map(|n| n.map(|value| -value)).collect();
         let options = RenderOptions { surface: Surface::Clay, ..SMALL };
-        let picture = render(&mesh, &normals, &options).unwrap();
-        assert_eq!(render(&mesh, &reversed, &options).unwrap(), picture);
+        let picture = render(&mesh, Normals::Vertices(&normals), &options).unwrap();
+        assert_eq!(render(&mesh, Normals::Vertices(&reversed), &options).unwrap(), picture);
         mesh.indices.reverse();
-        let turned = render(&mesh, &normals, &options).unwrap();
+        let turned = render(&mesh, Normals::Vertices(&normals), &options).unwrap();
         assert_eq!(pixel(&turned, 40, 30), pixel(&picture, 40, 30));
         let brightness = pixel(&picture, 40, 30)[1];
         assert!((120..250).contains(&brightness), "{brightness}");
@@ -246,7 +292,7 @@ mod tests {
             (0.0, 90.0, UpAxis::Z, [128, 128, 255]),
         ] {
             let options = RenderOptions { azimuth, elevation, up, ..SMALL };
-            let found = pixel(&render(&mesh, &normals, &options).unwrap(), 40, 30);
+            let found = pixel(&render(&mesh, Normals::Vertices(&normals), &options).unwrap(), 40, 30);
             let near = (0..3).all(|channel| found[channel].abs_diff(expected[channel]) < 8);
             assert!(near, "{found:?} instead of {expected:?}");
         }
@@ -255,7 +301,7 @@ mod tests {
     #[test]
     fn vertex_colors_are_shown() {
         let options = RenderOptions { surface: Surface::VertexColors(&[[255, 0, 0]; 8]), ..SMALL };
-        let picture = render(&concave(), &[[0.0, 0.0, 1.0]; 8], &options).unwrap();
+        let picture = render(&concave(), Normals::Vertices(&[[0.0, 0.0, 1.0]; 8]), &options).unwrap();
         let [red, green, blue] = pixel(&picture, 40, 50);
         assert!(red > 150 && green < 100 && blue < 100);
     }
@@ -279,7 +325,7 @@ mod tests {
             for surface in [Surface::Clay, Surface::NormalColors] {
                 for projection in [Projection::Orthographic, Projection::Perspective] {
                     let options = RenderOptions { surface, projection, ..SMALL };
-                    let picture = render(&mesh, &normals, &options).unwrap();
+                    let picture = render(&mesh, Normals::Vertices(&normals), &options).unwrap();
                     assert_eq!(picture.len(), 80 * 60 * 3);
                 }
             }
@@ -287,23 +333,63 @@ mod tests {
     }
 
     #[test]
+    fn every_face_has_its_color_up_to_its_edges() {
+        let colors = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0], [0, 255, 255], [255, 0, 255]];
+        let mesh = generate::cube();
+        let normal = |position: &[f64; 3]| position.map(|value| value as f32);
+        let normals: Vec<[f32; 3]> = mesh.positions.iter().map(normal).collect();
+        let options =
+            RenderOptions { azimuth: 45.0, surface: Surface::FaceColors(&colors), background: [0; 3], ..SMALL };
+        let picture = render(&mesh, Normals::Vertices(&normals), &options).unwrap();
+        // The faces of x = 1 and z = 1 meet in the middle.
+        for (column, face) in [(38, 5), (41, 1)] {
+            let found = pixel(&picture, column, 30);
+            assert!((0..3).all(|channel| (found[channel] > 60) == (colors[face][channel] > 60)), "{face}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn normals_at_corners_make_creases() {
+        let mesh = generate::cube();
+        let normals: Vec<[f32; 3]> = mesh
+            .faces()
+            .flat_map(|face| {
+                let sum: [f64; 3] = std::array::from_fn(|axis| {
+                    face.iter().map(|&vertex| mesh.positions[vertex as usize][axis]).sum()
+                });
+                vec![sum.map(|value| value as f32); face.len()]
+            })
+            .collect();
+        let options = RenderOptions { azimuth: 45.0, ..SMALL };
+        let picture = render(&mesh, Normals::Corners(&normals), &options).unwrap();
+        for (column, expected) in [(20, [128, 128, 255]), (38, [128, 128, 255]), (41, [255, 128, 128])] {
+            assert_eq!(pixel(&picture, column, 30), expected, "{column}");
+        }
+    }
+
+    #[test]
     fn unfit_arguments_are_refused() {
         let mesh = concave();
         let normals = [[0.0, 0.0, 1.0]; 8];
-        assert!(render(&mesh, &normals[1..], &SMALL).is_err());
+        let all = Normals::Vertices(&normals);
+        for few in [Normals::Vertices(&normals[1..]), Normals::Corners(&normals[1..])] {
+            assert!(render(&mesh, few, &SMALL).unwrap_err().starts_with("7 normals for 8 "));
+        }
         for (width, height) in [(0, 60), (80, 0), (u32::MAX, 60)] {
             let options = RenderOptions { width, height, ..SMALL };
-            assert!(render(&mesh, &normals, &options).is_err());
+            assert!(render(&mesh, all, &options).is_err());
         }
-        let options = RenderOptions { surface: Surface::VertexColors(&[]), ..SMALL };
-        assert!(render(&mesh, &normals, &options).is_err());
+        for surface in [Surface::VertexColors(&[]), Surface::FaceColors(&[])] {
+            let options = RenderOptions { surface, ..SMALL };
+            assert!(render(&mesh, all, &options).unwrap_err().starts_with("0 colors for "));
+        }
     }
 
     #[test]
     fn the_file_is_a_png_of_the_right_size() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        render_png(&path, &concave(), &[[0.0, 0.0, 1.0]; 8], &SMALL).unwrap();
+        render_png(&path, &concave(), Normals::Vertices(&[[0.0, 0.0, 1.0]; 8]), &SMALL).unwrap();
         let picture = image::open(&path).unwrap();
         assert_eq!((picture.width(), picture.height()), (80, 60));
     }

@@ -21,12 +21,12 @@ pub(super) struct Triangulator {
 }
 
 impl Triangulator {
-    /// Splits a face into triangles of vertices and their positions.
-    pub(super) fn triangulate<'a>(
-        &'a mut self,
+    /// Splits a face into triangles of corners, by their place in the face, and their positions.
+    pub(super) fn triangulate(
+        &mut self,
         mesh: &PolygonMesh,
-        face: &'a [u32],
-    ) -> impl Iterator<Item = [(u32, [f64; 3]); 3]> + 'a {
+        face: &[u32],
+    ) -> impl Iterator<Item = [(usize, [f64; 3]); 3]> {
         self.polygon.clear();
         self.polygon.extend(face.iter().map(|&vertex| mesh.positions[vertex as usize]));
         self.corners.clear();
@@ -43,7 +43,7 @@ impl Triangulator {
             .as_chunks::<3>()
             .0
             .iter()
-            .map(|triangle| triangle.map(|corner| (face[corner as usize], self.polygon[corner as usize])))
+            .map(|triangle| triangle.map(|corner| (corner as usize, self.polygon[corner as usize])))
     }
 }
 
@@ -52,12 +52,12 @@ mod tests {
     use super::*;
 
     /// The triangles of a single polygon, by its corners.
-    fn split(positions: Vec<[f64; 3]>) -> Vec<[u32; 3]> {
+    fn split(positions: Vec<[f64; 3]>) -> Vec<[usize; 3]> {
         let face: Vec<u32> = (0..positions.len() as u32).collect();
         let mesh = PolygonMesh { positions, ..PolygonMesh::default() };
         let mut triangulator = Triangulator::default();
         let triangles = triangulator.triangulate(&mesh, &face);
-        triangles.map(|corners| corners.map(|(v, _)| v)).collect()
+        triangles.map(|corners| corners.map(|(corner, _)| corner)).collect()
     }
 
     #[test]
@@ -70,7 +70,7 @@ mod tests {
             }
             let triangles = split(points.iter().map(|&[x, y]| [7.0, x, y]).collect());
             let areas = triangles.iter().map(|triangle| {
-                let [a, b, c] = triangle.map(|corner| points[corner as usize]);
+                let [a, b, c] = triangle.map(|corner| points[corner]);
                 (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
             });
             let areas: Vec<f64> = areas.collect();

@@ -1,0 +1,168 @@
+//! Calls of the library that cut a mesh into segments, and what is known of each of them.
+
+use crate::compute::{self, VertexCurvatures, with_progress};
+use crate::mesh::PolygonMesh;
+use crate::quantity::Quantity;
+use umbilic::{
+    CURVEDNESS_DEPTH, Creases, CurvatureOptions, Error, Faces, NO_SEGMENT, Points, RegionOptions, ScalarField,
+    Segmentation, ShapeClass, feature_segmentation, region_growing, shape_tolerance, watershed,
+};
+
+/// How a mesh is cut; what is `None` goes with the size of the mesh.
+pub enum Way<'a> {
+    /// Along edges sharper than an angle, in radians.
+    Features { angle: f64 },
+    /// Into basins of curvedness, of at least a depth in 1/length.
+    Watershed { depth: Option<f64>, curvature: CurvatureOptions<'a> },
+    /// Into regions of one shape class, with curvatures of up to a tolerance in 1/length being none.
+    Regions { tolerance: Option<f64>, options: RegionOptions, curvature: CurvatureOptions<'a> },
+}
+
+/// A mesh in segments.
+pub struct Segments {
+    /// The label of each face: its place in `each`, or [`NO_SEGMENT`].
+    pub labels: Vec<u32>,
+    /// The number of edges between segments.
+    pub boundary_edges: usize,
+    /// All segments.
+    pub each: Vec<Segment>,
+    /// The depth or tolerance that was taken.
+    pub limit: Option<f64>,
+}
+
+/// What is known of a segment.
+pub struct Segment {
+    /// The number of its faces.
+    pub faces: usize,
+    /// Its area.
+    pub area: f64,
+    /// The means of the quantities in [`MEANS`] by area, where curvatures were computed.
+    pub means: Option<[f64; MEANS.len()]>,
+    /// The class that most corners of its faces have, where there are classes.
+    pub shape: Option<ShapeClass>,
+}
+
+/// The quantities of which segments have means.
+pub const MEANS: [Quantity; 3] = [Quantity::K1, Quantity::K2, Quantity::Curvedness];
+
+/// The curvatures that a way of cutting goes by.
+pub fn curvatures(mesh: &PolygonMesh, way: &Way<'_>, threads: usize) -> Result<Option<VertexCurvatures>, Error> {
+    match way {
+        Way::Features { .. } => Ok(None),
+        Way::Watershed { curvature, .. } | Way::Regions { curvature, .. } => {
+            let topology = compute::topology(mesh)?;
+            compute::vertex_curvatures(mesh, &topology, curvature, threads).map(Some)
+        }
+    }
+}
+
+/// Cuts a mesh, with the curvatures for it.
+pub fn segment(
+    mesh: &PolygonMesh,
+    way: &Way<'_>,
+    curvatures: Option<&VertexCurvatures>,
+    threads: usize,
+) -> Result<Segments, Error> {
+    let (faces, points) = (Faces::polygons(&mesh.indices, &mesh.offsets)?, Points::from(&mesh.positions));
+    // No way asks for curvatures that its method lacks.
+    let quantity = |quantity| curvatures.and_then(|found| found.quantity(quantity)).unwrap_or_default();
+    let (found, limit, classes) = match way {
+        Way::Features { angle } => {
+            let creases = Creases { angle: *angle, ..Creases::default() };
+            let found = with_progress(mesh, 1, threads, |run| feature_segmentation(&faces, &points, &creases, run))?;
+            (found, None, None)
+        }
+        Way::Watershed { depth, .. } => {
+            let depth = match depth {
+                Some(depth) => *depth,
+                None => CURVEDNESS_DEPTH * shape_tolerance(&points)?,
+            };
+            let height = ScalarField::Vertices(quantity(Quantity::Curvedness).into());
+            let found = with_progress(mesh, 1, threads, |run| watershed(&faces, points.len(), &height, depth, run))?;
+            (found, Some(depth), None)
+        }
+        Way::Regions { tolerance, options, .. } => {
+            let (classes, tolerance) = match curvatures {
+                Some(found) => compute::shape_classes(mesh, found, *tolerance)?,
+                None => (Vec::new(), 0.0),
+            };
+            let found =
+                with_progress(mesh, 1, threads, |run| region_growing(&faces, &points, &classes, options, run))?;
+            (found, Some(tolerance), Some(classes))
+        }
+    };
+    let means = match curvatures {
+        None => None,
+        Some(_) => {
+            let mean = |of| found.means(&faces, &points, &ScalarField::Vertices(quantity(of).into()));
+            Some([mean(MEANS[0])?, mean(MEANS[1])?, mean(MEANS[2])?])
+        }
+    };
+    let shapes = classes.map(|classes| shapes(mesh, &found, &classes));
+    let mut counts = vec![0; found.count()];
+    for &label in found.labels().iter().filter(|&&label| label != NO_SEGMENT) {
+        counts[label as usize] += 1;
+    }
+    let areas = found.areas(&faces, &points)?;
+    let each = (0..found.count()).map(|label| Segment {
+        faces: counts[label],
+        area: areas[label],
+        means: means.as_ref().map(|means| means.each_ref().map(|values| values[label])),
+        shape: shapes.as_ref().map(|shapes| shapes[label]),
+    });
+    Ok(Segments {
+        each: each.collect(),
+        boundary_edges: found.boundary_edges().len(),
+        labels: found.labels().to_vec(),
+        limit,
+    })
+}
+
+/// The class that most corners of each segment have, of several the one with the smallest number.
+fn shapes(mesh: &PolygonMesh, found: &Segmentation, classes: &[u8]) -> Vec<ShapeClass> {
+    let mut counts = vec![[0_usize; ShapeClass::ALL.len()]; found.count()];
+    for (face, &label) in mesh.faces().zip(found.labels()).filter(|&(_, &label)| label != NO_SEGMENT) {
+        for &vertex in face {
+            counts[label as usize][classes[vertex as usize] as usize] += 1;
+        }
+    }
+    let most = |counts: &[usize; ShapeClass::ALL.len()]| {
+        let largest = counts.iter().copied().max().unwrap_or(0);
+        let place = counts.iter().position(|&count| count == largest);
+        place.map_or(ShapeClass::Undefined, |place| ShapeClass::ALL[place])
+    };
+    counts.iter().map(most).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate;
+    use umbilic::{Run, regions_of_shape, watershed_of_curvedness};
+
+    #[test]
+    fn segments_are_those_of_the_library() {
+        for mesh in [generate::bumpy(6), generate::torus(12), generate::cube()] {
+            let faces = Faces::polygons(&mesh.indices, &mesh.offsets).unwrap();
+            let (points, curvature) = (Points::from(&mesh.positions), CurvatureOptions::default());
+            let by = |way: Way<'_>| {
+                let found = curvatures(&mesh, &way, 1).unwrap();
+                segment(&mesh, &way, found.as_ref(), 1).unwrap()
+            };
+            for depth in [None, Some(0.1)] {
+                let expected = watershed_of_curvedness(&faces, &points, depth, &curvature, Run::default()).unwrap();
+                let found = by(Way::Watershed { depth, curvature: CurvatureOptions::default() });
+                assert_eq!(found.labels, expected.labels());
+                assert_eq!(found.boundary_edges, expected.boundary_edges().len());
+            }
+            for tolerance in [None, Some(0.5)] {
+                let options = RegionOptions::default();
+                let expected =
+                    regions_of_shape(&faces, &points, tolerance, &curvature, &options, Run::default()).unwrap();
+                let found = by(Way::Regions { tolerance, options, curvature: CurvatureOptions::default() });
+                assert_eq!(found.labels, expected.labels());
+                assert_eq!(found.each.iter().map(|segment| segment.faces).sum::<usize>(), mesh.face_count());
+            }
+        }
+    }
+}
