@@ -2,9 +2,14 @@
 
 use super::{CurvatureEstimator, crease_angle};
 use crate::segments::Way;
+use crate::table::number;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
+use serde_json::Value;
 use umbilic::{CurvatureKind, DEFAULT_CREASE_ANGLE, RegionOptions};
+
+/// [`DEFAULT_CREASE_ANGLE`] in degrees.
+const CREASE_ANGLE: f64 = 30.0;
 
 /// How a mesh is cut. Nothing that is given goes unused: what a way of cutting does not have is refused.
 #[derive(Args)]
@@ -87,13 +92,7 @@ impl Segmenter {
         Ok(if self.by == By::Watershed {
             Way::Watershed { depth: self.depth, curvature }
         } else {
-            let default = RegionOptions::default();
-            let options = RegionOptions {
-                angle: self.angle(),
-                smallest_faces: self.smallest_faces.unwrap_or(default.smallest_faces),
-                smallest_share: self.smallest_share.unwrap_or(default.smallest_share),
-            };
-            Way::Regions { tolerance: self.tolerance, options, curvature }
+            Way::Regions { tolerance: self.tolerance, options: self.region_options(), curvature }
         })
     }
 
@@ -102,24 +101,32 @@ impl Segmenter {
         self.crease_angle.map_or(DEFAULT_CREASE_ANGLE, f64::to_radians)
     }
 
-    /// What the options are, with their values in words; `limit` is the depth or the tolerance that was taken.
-    pub fn rows(&self, estimator: &CurvatureEstimator, limit: Option<f64>) -> Vec<(&'static str, String)> {
-        let mut rows = vec![("by", self.by.name().to_owned())];
+    /// What the options are: a key, words, the value in words and as such. `limit` is the depth or the tolerance that was taken.
+    pub fn rows(&self, limit: Option<f64>) -> Vec<(&'static str, &'static str, String, Value)> {
+        let mut rows = vec![("by", "by", self.by.name().to_owned(), self.by.name().into())];
         if self.by != By::Watershed {
-            rows.push(("crease angle", format!("{}°", self.crease_angle.unwrap_or(30.0))));
+            let degrees = self.crease_angle.unwrap_or(CREASE_ANGLE);
+            rows.push(("crease_angle", "crease angle", format!("{degrees}°"), degrees.into()));
         }
-        let name = if self.by == By::Watershed { "depth" } else { "tolerance" };
-        rows.extend(limit.map(|limit| (name, crate::table::number(limit))));
+        if let Some(limit) = limit {
+            let name = if self.by == By::Watershed { "depth" } else { "tolerance" };
+            rows.push((name, name, number(limit), limit.into()));
+        }
         if self.by == By::Regions {
-            let default = RegionOptions::default();
-            let share = self.smallest_share.unwrap_or(default.smallest_share);
-            rows.push(("smallest share", share.to_string()));
-            rows.push(("smallest faces", self.smallest_faces.unwrap_or(default.smallest_faces).to_string()));
-        }
-        if self.by != By::Features {
-            rows.extend(estimator.rows());
+            let RegionOptions { smallest_share, smallest_faces, .. } = self.region_options();
+            rows.push(("smallest_share", "smallest share", number(smallest_share), smallest_share.into()));
+            rows.push(("smallest_faces", "smallest faces", smallest_faces.to_string(), smallest_faces.into()));
         }
         rows
+    }
+
+    fn region_options(&self) -> RegionOptions {
+        let default = RegionOptions::default();
+        RegionOptions {
+            angle: self.angle(),
+            smallest_faces: self.smallest_faces.unwrap_or(default.smallest_faces),
+            smallest_share: self.smallest_share.unwrap_or(default.smallest_share),
+        }
     }
 }
 
@@ -142,6 +149,11 @@ fn share(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_default_angle_is_that_of_the_library() {
+        assert!((CREASE_ANGLE.to_radians() - DEFAULT_CREASE_ANGLE).abs() < 1e-15);
+    }
 
     #[test]
     fn numbers_are_within_their_bounds() {

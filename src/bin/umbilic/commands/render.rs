@@ -3,7 +3,7 @@
 use super::Outcome;
 use crate::args;
 use crate::colorbar::write_colorbar;
-use crate::coloring::Subject;
+use crate::coloring::{Coloring, Subject};
 use crate::compute::{self, blame};
 use crate::read::read_mesh;
 use crate::render::{Normals, Surface, render_png};
@@ -118,7 +118,11 @@ impl Render {
         let found = compute::vertex_curvatures(&mesh, &topology, &options, 0).map_err(&blame)?;
         let coloring = self.scale.coloring(subject, &mesh, &found).map_err(&blame)?;
         let colors = coloring.colors(&found);
-        let options = self.view.options(Surface::VertexColors(&colors));
+        let surface = match coloring {
+            Coloring::Scale(..) => Surface::VertexColors(&colors),
+            Coloring::Shape { .. } => Surface::VertexPatches(&colors),
+        };
+        let options = self.view.options(surface);
         render_png(&self.output, &mesh, Normals::Vertices(&found.normals), &options)?;
         if let (Some(bar), Some(scale)) = (&self.scale.colorbar, coloring.scale()) {
             write_colorbar(bar, scale)?;

@@ -113,10 +113,16 @@ impl Segment {
         Ok(())
     }
 
+    /// The options of curvatures, where there are any.
+    fn estimator_rows(&self, found: &Segments) -> Vec<(&'static str, String)> {
+        if found.limit.is_some() { self.curvature.rows() } else { Vec::new() }
+    }
+
     /// As tables.
     fn text(&self, mesh: &PolygonMesh, found: &Segments, times: [(&'static str, Duration); 4]) -> String {
         let mut rows = vec![("vertices", mesh.vertex_count().to_string()), ("faces", mesh.face_count().to_string())];
-        rows.extend(self.segmenter.rows(&self.curvature, found.limit));
+        rows.extend(self.segmenter.rows(found.limit).into_iter().map(|(_, words, text, _)| (words, text)));
+        rows.extend(self.estimator_rows(found));
         rows.push(("segments", found.each.len().to_string()));
         rows.push(("edges between them", found.boundary_edges.to_string()));
         rows.push(("faces in no segment", ignored(found).to_string()));
@@ -153,8 +159,9 @@ impl Segment {
 
     /// As an object.
     fn object(&self, mesh: &PolygonMesh, found: &Segments, times: [(&'static str, Duration); 4]) -> Value {
-        let options = self.segmenter.rows(&self.curvature, found.limit);
-        let options: Map<_, _> = options.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect();
+        let options = self.segmenter.rows(found.limit).into_iter().map(|(key, .., value)| (key.to_owned(), value));
+        let estimator = self.estimator_rows(found).into_iter().map(|(key, value)| (key.to_owned(), value.into()));
+        let options: Map<_, _> = options.chain(estimator).collect();
         let seconds: Map<_, _> =
             times.into_iter().map(|(key, time)| (key.to_owned(), time.as_secs_f64().into())).collect();
         let whole = whole(found);

@@ -17,7 +17,7 @@ use camera::Camera;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use light::{CLAY, light, shade_mildly, show_normal, to_linear, to_srgb};
-use raster::{Canvas, Shade};
+use raster::{Blend, Canvas, Shade};
 use std::path::Path;
 use triangulate::Triangulator;
 
@@ -89,6 +89,8 @@ pub enum Surface<'a> {
     Clay,
     /// One color per vertex, lit so mildly that it can be told apart from its neighbors in a colormap.
     VertexColors(&'a [[u8; 3]]),
+    /// One color around each vertex, halfway to the next, lit as mildly: for classes, of which a mixture would be another.
+    VertexPatches(&'a [[u8; 3]]),
     /// One color per face, lit as mildly.
     FaceColors(&'a [[u8; 3]]),
     /// Not lit: the components of the normal from -1 to 1 are the amounts of red, green and blue.
@@ -100,7 +102,7 @@ impl Surface<'_> {
     fn color(&self, face: usize, vertex: usize) -> [f32; 3] {
         match self {
             Surface::Clay => CLAY,
-            Surface::VertexColors(colors) => colors[vertex].map(to_linear),
+            Surface::VertexColors(colors) | Surface::VertexPatches(colors) => colors[vertex].map(to_linear),
             Surface::FaceColors(colors) => colors[face].map(to_linear),
             Surface::NormalColors => [0.0; 3],
         }
@@ -110,9 +112,14 @@ impl Surface<'_> {
     fn paint(&self) -> fn(Shade) -> [f32; 3] {
         match self {
             Surface::Clay => light,
-            Surface::VertexColors(_) | Surface::FaceColors(_) => shade_mildly,
+            Surface::VertexColors(_) | Surface::VertexPatches(_) | Surface::FaceColors(_) => shade_mildly,
             Surface::NormalColors => show_normal,
         }
+    }
+
+    /// How colors of corners become those of a triangle.
+    fn blend(&self) -> Blend {
+        if matches!(self, Surface::VertexPatches(_)) { Blend::Nearest } else { Blend::Mixed }
     }
 }
 
@@ -149,7 +156,7 @@ fn render(mesh: &PolygonMesh, normals: Normals<'_>, options: &RenderOptions<'_>)
     let mut canvas = Canvas::new(width, height, background);
     let mut triangulator = Triangulator::default();
     let lit = options.surface != Surface::NormalColors;
-    let paint = options.surface.paint();
+    let (blend, paint) = (options.surface.blend(), options.surface.paint());
     for (face, (vertices, &first)) in mesh.faces().zip(&mesh.offsets).enumerate() {
         for triangle in triangulator.triangulate(mesh, vertices) {
             let corners = triangle.map(|(corner, position)| {
@@ -160,7 +167,7 @@ fn render(mesh: &PolygonMesh, normals: Normals<'_>, options: &RenderOptions<'_>)
                 };
                 (position, Shade { normal, color: options.surface.color(face, vertex) })
             });
-            canvas.fill(camera.see(corners, lit), paint);
+            canvas.fill(camera.see(corners, lit), blend, paint);
         }
     }
     Ok(average(&canvas))
@@ -175,7 +182,7 @@ fn check(mesh: &PolygonMesh, normals: Normals<'_>, options: &RenderOptions<'_>) 
         Normals::Corners(normals) => (normals.len(), "normals", corners),
     };
     let colors = match options.surface {
-        Surface::VertexColors(colors) => Some((colors.len(), "colors", vertices)),
+        Surface::VertexColors(colors) | Surface::VertexPatches(colors) => Some((colors.len(), "colors", vertices)),
         Surface::FaceColors(colors) => Some((colors.len(), "colors", faces)),
         Surface::Clay | Surface::NormalColors => None,
     };
@@ -379,7 +386,7 @@ mod tests {
             let options = RenderOptions { width, height, ..SMALL };
             assert!(render(&mesh, all, &options).is_err());
         }
-        for surface in [Surface::VertexColors(&[]), Surface::FaceColors(&[])] {
+        for surface in [Surface::VertexColors(&[]), Surface::VertexPatches(&[]), Surface::FaceColors(&[])] {
             let options = RenderOptions { surface, ..SMALL };
             assert!(render(&mesh, all, &options).unwrap_err().starts_with("0 colors for "));
         }

@@ -47,6 +47,15 @@ pub(super) struct Shade {
     pub(super) color: [f32; 3],
 }
 
+/// How colors of corners become those of a triangle; normals are interpolated in any case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Blend {
+    /// They are interpolated.
+    Mixed,
+    /// Each sample has the color of the corner that weighs most.
+    Nearest,
+}
+
 impl Canvas {
     /// An empty canvas of one color.
     pub(super) fn new(width: usize, height: usize, background: [f32; 3]) -> Self {
@@ -60,7 +69,7 @@ impl Canvas {
 
     /// Fills a triangle where it is in front, asking `paint` for the colors. Seen from its front, the corners go
     /// around counterclockwise.
-    pub(super) fn fill(&mut self, mut corners: [Corner; 3], paint: impl Fn(Shade) -> [f32; 3]) {
+    pub(super) fn fill(&mut self, mut corners: [Corner; 3], blend: Blend, paint: impl Fn(Shade) -> [f32; 3]) {
         let mut places = corners.map(snap);
         let is_front = doubled_area(places) < 0;
         if is_front {
@@ -96,7 +105,11 @@ impl Canvas {
                 let weights: [f32; 3] = std::array::from_fn(|i| weights[i] * nearness[i]);
                 let total: f32 = weights.iter().sum();
                 let weights = weights.map(|weight| weight / total);
-                self.colors[index] = paint(Shade { normal: mix(normals, weights), color: mix(colors, weights) });
+                let color = match blend {
+                    Blend::Mixed => mix(colors, weights),
+                    Blend::Nearest => colors[heaviest(weights)],
+                };
+                self.colors[index] = paint(Shade { normal: mix(normals, weights), color });
             }
         }
     }
@@ -117,6 +130,15 @@ fn snap(corner: Corner) -> [i64; 2] {
 /// Twice the area of a triangle on the grid, positive if its corners go around clockwise, with rows going down.
 fn doubled_area([a, b, c]: [[i64; 2]; 3]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// The place of the largest weight.
+fn heaviest([a, b, c]: [f32; 3]) -> usize {
+    match (a >= b && a >= c, b >= c) {
+        (true, _) => 0,
+        (_, true) => 1,
+        _ => 2,
+    }
 }
 
 /// The weighted sum of three vectors.
@@ -143,7 +165,7 @@ mod tests {
             .collect();
         for pair in around.windows(2) {
             let [from, to] = [pair[0], pair[1]].map(|[x, y]| corner(x, y, 0.0));
-            canvas.fill([corner(32.3, 31.7, 0.0), from, to], |shade| shade.color);
+            canvas.fill([corner(32.3, 31.7, 0.0), from, to], Blend::Mixed, |shade| shade.color);
         }
         assert!(canvas.rows().flatten().all(|color| color[0] > 0.99));
     }
@@ -155,7 +177,7 @@ mod tests {
             let mut canvas = Canvas::new(4, 4, [0.0; 3]);
             for is_near in [near_first, !near_first] {
                 let depth = if is_near { -0.5 } else { -0.2 };
-                canvas.fill(triangle(depth), |_| [f32::from(u8::from(is_near)); 3]);
+                canvas.fill(triangle(depth), Blend::Mixed, |_| [f32::from(u8::from(is_near)); 3]);
             }
             assert_eq!(canvas.rows().next().unwrap()[0], [1.0; 3]);
         }
@@ -172,18 +194,33 @@ mod tests {
         };
         let near = place(0.0, 1.5, 1.0, 0.0);
         let far = [-9.0, 9.0].map(|y| place(101.0, y, 1.0 / 3.0, 1.0));
-        canvas.fill([near, far[0], far[1]], |shade| shade.color);
+        canvas.fill([near, far[0], far[1]], Blend::Mixed, |shade| shade.color);
         // In the middle of the canvas, three quarters of the weight is near.
         let middle = canvas.rows().nth(1).unwrap()[50][0];
         assert!((middle - 0.25).abs() < 0.01, "{middle}");
     }
 
     #[test]
+    fn without_mixing_every_sample_has_the_color_of_a_corner() {
+        let colors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let places = [[0.0, 0.0], [0.0, 20.0], [20.0, 0.0]];
+        let corners = [0, 1, 2].map(|at| Corner {
+            shade: Shade { color: colors[at], ..SHADE },
+            ..corner(places[at][0], places[at][1], 0.0)
+        });
+        let mut canvas = Canvas::new(20, 20, [0.5; 3]);
+        canvas.fill(corners, Blend::Nearest, |shade| shade.color);
+        let rows: Vec<_> = canvas.rows().collect();
+        assert!(rows.iter().flat_map(|row| row.iter()).all(|color| *color == [0.5; 3] || colors.contains(color)));
+        assert_eq!([rows[1][1], rows[17][1], rows[1][17]], colors);
+    }
+
+    #[test]
     fn triangles_without_area_or_outside_are_skipped() {
         let mut canvas = Canvas::new(4, 4, [0.0; 3]);
-        canvas.fill([corner(1.0, 1.0, 0.0); 3], |_| [1.0; 3]);
+        canvas.fill([corner(1.0, 1.0, 0.0); 3], Blend::Mixed, |_| [1.0; 3]);
         let outside = [[-9.0, -9.0], [-9.0, -1.0], [-1.0, -9.0]];
-        canvas.fill(outside.map(|[x, y]| corner(x, y, 0.0)), |_| [1.0; 3]);
+        canvas.fill(outside.map(|[x, y]| corner(x, y, 0.0)), Blend::Mixed, |_| [1.0; 3]);
         assert!(canvas.rows().flatten().all(|color| *color == [0.0; 3]));
     }
 }
