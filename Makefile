@@ -112,6 +112,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
 	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
 	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/corners.py $(LIBRARY) $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)
