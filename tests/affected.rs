@@ -239,7 +239,9 @@ fn lists_are_as_short_as_they_may_be() {
         let moved = [5, 9, 5];
         for asked in all(&model) {
             let rings = match asked {
-                Asked::Normals(umb_normal_options { weight: UMB_WEIGHT_JET, rings, .. }) => [2, 1, 2, 3][rings as usize],
+                Asked::Normals(umb_normal_options { weight: UMB_WEIGHT_JET, rings, .. }) => {
+                    [2, 1, 2, 3][rings as usize]
+                }
                 Asked::Normals(umb_normal_options { weight: UMB_WEIGHT_ADAPTIVE_JET, rings, .. }) => {
                     [4, 2, 3, 4][rings as usize]
                 }

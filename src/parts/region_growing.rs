@@ -15,9 +15,9 @@
 //! join smoothly are not separated: a cylinder and a cone, or a flat part and another that is a few degrees off. A part whose vertices are all at
 //! its border, such as the side of a filleted box in two triangles, has no sure face of its own class; it takes a vertex inside.
 //!
-//! On clean meshes of machine parts curvatures should come from one ring, so that the vertices next to a fillet are exactly flat:
-//! [`Method::LeastSquares`](crate::Method::LeastSquares) does best there. With noise take [`Method::AdaptiveJet`](crate::Method::AdaptiveJet), a
-//! tolerance of twice to four times [`shape_tolerance`](crate::shape_tolerance), and a larger smallest region.
+//! What serves machine parts best, clean and with noise of 1 % of the edges, is [`Method::AdaptiveJet`](crate::Method::AdaptiveJet) with twice
+//! [`shape_tolerance`](crate::shape_tolerance), as [`regions_of_shape`](crate::regions_of_shape) has it; on clean ones
+//! [`Method::LeastSquares`](crate::Method::LeastSquares) does as well. With more noise take a larger smallest region.
 //!
 //! A face without area takes the normal of a neighbour. Numerical notes: angles are compared by the chord between unit normals; normals,
 //! lengths and areas are in `f64`. All ties are broken by the index of the face. Cost: O(n log n) for the faces that are not sure and the regions that are too small; the rest is
