@@ -46,14 +46,16 @@ FORCE:
 
 demo: $(LIBRARY)
 	@mkdir -p target/demo
-	for example in normals curvature; do \
+	for example in normals curvature moving; do \
 	  $(CC) -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude examples_c/$$example.c -o target/demo/$$example \
 	    -Ltarget/release -lumbilic -lm -Wl,-rpath,$(CURDIR)/target/release || exit 1; \
 	done
-	@echo; echo "The C examples, on a torus and a circle of their own:"
+	@echo; echo "The C examples, on meshes of their own:"
 	target/demo/normals
 	@echo
 	target/demo/curvature
+	@echo
+	target/demo/moving
 	@echo; echo "The command line, on $(if $(MESH),$(MESH),a generated mesh):"
 	$(if $(MESH),,target/release/umbilic generate bumpy -o target/demo/bumpy.ply --resolution 120)
 	target/release/umbilic info $(if $(MESH),"$(MESH)",target/demo/bumpy.ply)
@@ -99,6 +101,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	cmake --build $(CMAKE_BUILD)
 	$(CMAKE_BUILD)/normals
 	$(CMAKE_BUILD)/curvature
+	$(CMAKE_BUILD)/moving
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
@@ -109,6 +112,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
 	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
 	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/corners.py $(LIBRARY) $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)

@@ -1298,7 +1298,7 @@ typedef struct umb_region_options {
    */
   double smallest_share;
   /**
-   * For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for its default.
+   * For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`.
    */
   double tolerance;
   /**
@@ -2392,13 +2392,14 @@ umb_status umb_segment_watershed(const struct umb_faces *faces,
 
 /**
  * Grows regions of faces by the shape classes of their vertices (see `umb_shape_classes`): flat, cylindrical, spherical and saddle parts,
- * whether creases bound them or not. Faces whose corners are all of one class make regions with neighbours of the same class
+ * whether creases bound them or not. Faces whose corners, those on creases aside, are all of one class make regions with neighbours of the same class
  * across edges within the angle; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
  * part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
  *
- * On clean meshes of machine parts take curvatures of one ring (`UMB_CURVATURE_LEAST_SQUARES`), so that vertices next to a fillet are
- * flat; with noise adaptive jets, two to four times the tolerance, and larger smallest regions. Two parts of one class that join
- * smoothly are not separated.
+ * By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
+ * larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`) do as well and are faster. Two
+ * parts of one class that join smoothly are not separated, nor is a cone, whose curvature has no bound, from what is flat at
+ * its wide end by any tolerance.
  *
  * Same bits on any number of threads. Cost: O(n log n) at most, on one thread but for the curvatures.
  *

@@ -45,10 +45,10 @@ pub use normals::{
 };
 pub use parallel::Run;
 pub use parts::{
-    CURVEDNESS_DEPTH, CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, NO_SEGMENT, RegionOptions,
-    SHAPE_TOLERANCE, ScalarField, Segmentation, ShapeClass, affected_curvatures, affected_normals, corner_normals,
-    feature_segmentation, region_growing, regions_of_shape, shape_classes, shape_tolerance, watershed,
-    watershed_of_curvedness,
+    CURVEDNESS_DEPTH, CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, NO_SEGMENT, REGION_TOLERANCE,
+    RegionOptions, SHAPE_TOLERANCE, ScalarField, Segmentation, ShapeClass, affected_curvatures, affected_normals,
+    corner_normals, feature_segmentation, region_growing, regions_of_shape, shape_classes, shape_tolerance,
+    watershed, watershed_of_curvedness,
 };
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};

@@ -4,8 +4,8 @@ mod common;
 use common::solids::{self, Solid, rand_index, renamed};
 use umbilic::{
     Creases, CurvatureOptions, CurvatureOutputs, Faces, Method, Points, RegionOptions, Run, ScalarField,
-    Segmentation, Topology, curvatures, feature_segmentation, region_growing, shape_classes, shape_tolerance,
-    watershed,
+    Segmentation, Topology, curvatures, feature_segmentation, region_growing, regions_of_shape, shape_classes,
+    shape_tolerance, watershed,
 };
 
 fn labels(found: &Segmentation) -> Vec<usize> {
@@ -155,6 +155,25 @@ fn fillets_are_parted_from_flats() {
     }
 }
 
+/// As a caller has it who sets nothing: fillets and all, with noise and without. Of a cone the curvature has no bound, and none is right
+/// for all of it.
+#[test]
+fn regions_by_default() {
+    for solid in sharp().into_iter().chain(filleted()) {
+        for (noise, least) in [(0.0, 1.0), (0.01, 0.98)] {
+            let solid = if noise > 0.0 { solid.triangles(1).noisy(noise, 7) } else { solid.triangles(1) };
+            let (faces, points) = (faces(&solid), Points::from(&solid.mesh.positions));
+            let curvature = CurvatureOptions::default();
+            let found =
+                regions_of_shape(&faces, &points, None, &curvature, &RegionOptions::default(), Run::default())
+                    .unwrap();
+            let rand = rand_index(&labels(&found), &solid.sides);
+            let least = if solid.mesh.name.contains("cone") { 0.85 } else { least };
+            assert!(rand >= least, "{}, noise {noise}: {rand}, {} segments", solid.mesh.name, found.count());
+        }
+    }
+}
+
 /// Noise of 1 % of the shortest edge at a vertex.
 #[test]
 fn noise() {
@@ -189,7 +208,7 @@ fn noise() {
         }
     }
     println!("worst: creases {:.4}, water {:.4}, regions {:.4}", worst[0], worst[1], worst[2]);
-    for (worst, least) in worst.into_iter().zip([1.0, 0.97, 0.8]) {
+    for (worst, least) in worst.into_iter().zip([1.0, 0.99, 0.88]) {
         assert!(worst >= least, "{worst} of {least}");
     }
 }

@@ -45,8 +45,10 @@ static void add_all(list *l, const char *const *names) {
 
 static void add_normals(list *l) {
   static const char *const names[] = {"N_CM from faces", "N_CM", "uniform", "angle", "area", "Max", "centroid-area",
-                                      "centroid", "inverse-root-edges", "sine", "angle-edges", NULL};
+                                      "centroid", "inverse-root-edges", "sine", "angle-edges", "angle, at corners",
+                                      "angle, at corners by index", "N_CM, at corners", NULL};
   add(l, "topology", UMB_SCALAR_F32, 1, 0);
+  add(l, "cut along creases", UMB_SCALAR_F32, 1, 0);
   add_all(l, names);
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* What a variant calls. */
-enum { TOPOLOGY, NORMALS, FROM_FACES, CURVATURES, EDGE_SECTIONS, DIRECTION_SECTIONS };
+enum { TOPOLOGY, NORMALS, FROM_FACES, CUT, CORNERS, INDEXED_CORNERS, CURVATURES, EDGE_SECTIONS, DIRECTION_SECTIONS };
 
 /* What a method has to give. */
 enum { PRINCIPAL = 1, DIRECTIONS = 2, MEAN_AND_GAUSSIAN = 4, GAUSSIAN = 8, TENSOR = PRINCIPAL | DIRECTIONS };
@@ -38,6 +38,10 @@ static const variant VARIANTS[] = {
     {"tilted-sections", NORMALS, 0, 0, UMB_WEIGHT_TILTED_SECTIONS, 0, 0},
     {"jet", NORMALS, 0, 0, UMB_WEIGHT_JET, 3, 2},
     {"adaptive-jet, 4 rings", NORMALS, 0, 0, UMB_WEIGHT_ADAPTIVE_JET, 0, 4},
+    {"cut along creases", CUT, 0, 0, 0, 0, 0},
+    {"angle, at corners", CORNERS, 0, 0, UMB_WEIGHT_ANGLE, 0, 0},
+    {"angle, at corners by index", INDEXED_CORNERS, 0, 0, UMB_WEIGHT_ANGLE, 0, 0},
+    {"N_CM, at corners", CORNERS, 0, 0, UMB_WEIGHT_CONFORMAL, 0, 0},
     {"edge sections", EDGE_SECTIONS, 0, 0, UMB_SECTION_SYMMETRIC_PARABOLA, 0, 0},
     {"direction sections, one each", DIRECTION_SECTIONS, 0, 0, UMB_SECTION_SYMMETRIC_PARABOLA, 0, 0},
     {"tilted sections", CURVATURES, UMB_CURVATURE_TILTED_SECTIONS, TENSOR, 0, 0, 0},
@@ -70,6 +74,7 @@ struct ours {
   const mesh *m;
   int fresh;
   umb_topology *topology;
+  umb_cut *cut;
   void *rooms[ROOMS];
   umb_points normals[2], directions[2]; /* given ones in both scalars, made when first asked for */
 };
@@ -105,6 +110,19 @@ static umb_topology *build(const mesh *m, uint32_t threads, umb_simd simd) {
   return topology;
 }
 
+/* Along edges sharper than 30 degrees. */
+static umb_cut *build_cut(const mesh *m, uint32_t threads, umb_simd simd) {
+  umb_error error = UMB_ERROR_INIT;
+  umb_topology_options options = UMB_TOPOLOGY_OPTIONS_INIT;
+  options.threads = threads;
+  options.simd = simd;
+  umb_faces faces = faces_of(m);
+  umb_points points = points_of(m, UMB_SCALAR_F32);
+  umb_cut *cut = NULL;
+  check(umb_cut_create(&faces, &points, NULL, &options, &cut, &error), &error);
+  return cut;
+}
+
 ours *ours_new(const mesh *m, int fresh) {
   ours *o = allocate(sizeof *o);
   *o = (ours){.m = m, .fresh = fresh};
@@ -113,6 +131,7 @@ ours *ours_new(const mesh *m, int fresh) {
 
 void ours_free(ours *o) {
   umb_topology_destroy(o->topology);
+  umb_cut_destroy(o->cut);
   for (int i = 0; i < ROOMS; i++) free(o->rooms[i]);
   for (int i = 0; i < 2; i++) {
     free((void *)o->normals[i].data);
@@ -183,6 +202,18 @@ static void run_normals(ours *o, const variant *v, const umb_points *points, con
   else check(umb_vertex_normals_from_faces(&faces, points, &options, &outputs, &error), &error);
 }
 
+static void run_corners(ours *o, const variant *v, const umb_points *points, const umb_run *how) {
+  umb_error error = UMB_ERROR_INIT;
+  umb_normal_options options = UMB_NORMAL_OPTIONS_INIT;
+  umb_corner_outputs outputs = UMB_CORNER_OUTPUTS_INIT;
+  if (!o->cut) o->cut = build_cut(o->m, 0, UMB_SIMD_BEST);
+  options.weight = v->kind;
+  options.run = *how;
+  if (v->call == CORNERS) outputs.corner = output(o, 0, 3 * umb_cut_corner_count(o->cut), points->scalar);
+  else outputs.normal = output(o, 0, 3 * umb_cut_vertex_count(o->cut), points->scalar);
+  check(umb_corner_normals(o->cut, points, &options, &outputs, &error), &error);
+}
+
 static void run_curvatures(ours *o, const variant *v, const umb_points *points, const umb_points *normals,
                            const umb_run *how) {
   umb_error error = UMB_ERROR_INIT;
@@ -248,6 +279,9 @@ void ours_run(ours *o, const char *name, umb_scalar scalar, uint32_t threads, um
   case TOPOLOGY: umb_topology_destroy(build(o->m, threads, simd)); break;
   case NORMALS:
   case FROM_FACES: run_normals(o, v, &points, &how); break;
+  case CUT: umb_cut_destroy(build_cut(o->m, threads, simd)); break;
+  case CORNERS:
+  case INDEXED_CORNERS: run_corners(o, v, &points, &how); break;
   case CURVATURES: run_curvatures(o, v, &points, &normals, &how); break;
   default: run_sections(o, v, &points, &normals, &how);
   }

@@ -16,6 +16,10 @@ use crate::view::{Faces, Points, zeroed};
 /// The depth of basins of curvedness that [`watershed_of_curvedness`] merges by itself, in units of [`shape_tolerance`].
 pub const CURVEDNESS_DEPTH: f64 = 4.0;
 
+/// The tolerance of [`regions_of_shape`], in units of [`shape_tolerance`]: with adaptive jets it finds the fillets of boxes, clean or with noise
+/// of 1 % of the edges; 1 makes small regions of the noise, and 4 takes the ends of fillets for flat.
+pub const REGION_TOLERANCE: f64 = 2.0;
+
 /// The share of the work that goes into curvatures, for progress.
 const SHARE: f64 = 0.8;
 
@@ -46,7 +50,8 @@ pub fn watershed_of_curvedness(
     run.part_for(None, SHARE, 1.0, |run| watershed(faces, points.len(), &height, depth, run))
 }
 
-/// [`region_growing`] by the [`shape_classes`] of the vertices; `tolerance` is in 1/length, by default [`shape_tolerance`].
+/// [`region_growing`] by the [`shape_classes`] of the vertices; `tolerance` is in 1/length, by default [`REGION_TOLERANCE`] by
+/// [`shape_tolerance`].
 ///
 /// # Errors
 /// As [`region_growing`], [`shape_classes`] and [`curvatures`].
@@ -61,7 +66,7 @@ pub fn regions_of_shape(
     let topology = Topology::with_threads(faces, points.len(), run.threads, run.level)?;
     let tolerance = match tolerance {
         Some(tolerance) => tolerance,
-        None => shape_tolerance(points)?,
+        None => REGION_TOLERANCE * shape_tolerance(points)?,
     };
     let mut classes: Vec<u8> = zeroed(points.len())?;
     let mut statuses: Vec<u8> = zeroed(points.len())?;

@@ -9,7 +9,8 @@
 use super::cut::CutMesh;
 use crate::error::Error;
 use crate::normals::{NormalOutputs, Weight, vertex_normals};
-use crate::parallel::Run;
+use crate::parallel::{Run, for_each_chunk};
+use crate::simd::Real;
 use crate::view::{Output, Points, StatusOutput, zeroed};
 
 /// Where the results of [`corner_normals`] go; all are optional.
@@ -80,12 +81,18 @@ fn at_cut_vertices(
     }
 }
 
+/// The share of the work that goes into vertex normals, for progress.
+const SHARE: f64 = 0.7;
+
+/// Corners, or vertices, that a thread copies at once.
+const CHUNK: usize = 1 << 14;
+
 /// Computes into `normals`, and copies from there.
-fn expand<S: Copy + Into<f64>>(
+fn expand<S: Real + Send + Sync>(
     cut: &CutMesh,
     positions: &Points<'_>,
     weight: Weight,
-    run: Run<'_>,
+    mut run: Run<'_>,
     outputs: &CornerOutputs<'_>,
     corner: &Output<'_>,
     normals: &mut [[S; 3]],
@@ -102,14 +109,19 @@ where
         sum: asked.sum.as_ref().map(Output::again),
         status: asked.status.as_ref().map(StatusOutput::again),
     };
-    vertex_normals(cut.topology(), positions, weight, run, &own)?;
+    run.part(0.0, SHARE, |run| vertex_normals(cut.topology(), positions, weight, run, &own))?;
     if let Some(output) = &asked.normal {
         for (vertex, normal) in normals.iter().enumerate() {
-            output.write(vertex, normal.map(Into::into));
+            output.write(vertex, (*normal).map(Into::into));
         }
     }
-    for (place, &vertex) in cut.corners().iter().enumerate() {
-        corner.write(place, normals[vertex as usize].map(Into::into));
-    }
-    Ok(())
+    let (normals, corners) = (&*normals, cut.corners());
+    run.part(SHARE, 1.0, |mut run| {
+        for_each_chunk(&mut run, corners.len().div_ceil(CHUNK), |claims| {
+            while let Some(chunk) = claims.next() {
+                let first = chunk * CHUNK;
+                corner.write_rows(first, normals, &corners[first..corners.len().min(first + CHUNK)]);
+            }
+        })
+    })
 }

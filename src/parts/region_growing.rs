@@ -3,7 +3,8 @@
 //! References: P. J. Besl, R. C. Jain, "Segmentation through variable-order surface fitting", IEEE Transactions on Pattern Analysis and
 //! Machine Intelligence 10 (1988); R. Adams, L. Bischof, "Seeded region growing", the same 16 (1994).
 //!
-//! Input is any mesh with a [`ShapeClass`] at each vertex. A face whose corners are all of one class is sure of it and makes seeds: sure faces of the same class that
+//! Input is any mesh with a [`ShapeClass`] at each vertex. A vertex on a crease, an edge whose faces differ by more than the angle, tells nothing of
+//! the surface beside it. A face whose other corners are all of one class is sure of it and makes seeds: sure faces of the same class that
 //! meet smoothly (their normals differ by at most the angle) are one region. The others lie between parts, where a curvature is a mixture: those are added
 //! to the regions in the order of how little their normal differs from that of a neighbour that has one, over edges within the
 //! angle. Without this order a flat face with two corners on the edge of a fillet would go with the fillet.
@@ -14,9 +15,9 @@
 //! join smoothly are not separated: a cylinder and a cone, or a flat part and another that is a few degrees off. A part whose vertices are all at
 //! its border, such as the side of a filleted box in two triangles, has no sure face of its own class; it takes a vertex inside.
 //!
-//! On clean meshes of machine parts curvatures should come from one ring, so that the vertices next to a fillet are exactly flat:
-//! [`Method::LeastSquares`](crate::Method::LeastSquares) does best there. With noise take [`Method::AdaptiveJet`](crate::Method::AdaptiveJet), a
-//! tolerance of twice to four times [`shape_tolerance`](crate::shape_tolerance), and a larger smallest region.
+//! What serves machine parts best, clean and with noise of 1 % of the edges, is [`Method::AdaptiveJet`](crate::Method::AdaptiveJet) with twice
+//! [`shape_tolerance`](crate::shape_tolerance), as [`regions_of_shape`](crate::regions_of_shape) has it; on clean ones
+//! [`Method::LeastSquares`](crate::Method::LeastSquares) does as well. With more noise take a larger smallest region.
 //!
 //! A face without area takes the normal of a neighbour. Numerical notes: angles are compared by the chord between unit normals; normals,
 //! lengths and areas are in `f64`. All ties are broken by the index of the face. Cost: O(n log n) for the faces that are not sure and the regions that are too small; the rest is
@@ -80,10 +81,19 @@ pub fn region_growing(
     points.check_finite()?;
     let normals = graph.normals(points)?;
     report(&mut run, 0.5)?;
-    let votes = with_indices!(faces.indices(), indices => votes(&graph, indices, classes))?;
     let smooth = |a: u32, b: u32| {
         options.angle >= std::f64::consts::PI || !sharp.is_between(normals[a as usize], normals[b as usize])
     };
+    let mut known = filled(points.len(), 1u8)?;
+    graph.for_each_edge(|corner, face, other| {
+        if !smooth(face, other) {
+            for vertex in graph.ends(corner, face as usize) {
+                known[vertex as usize] = 0;
+            }
+        }
+    });
+    let votes = with_indices!(faces.indices(), indices => votes(&graph, indices, classes, &known))?;
+    drop(known);
 
     let mut sets = Sets::new(faces.len())?;
     // How far apart the faces are, and the faces, of edges at a face that is not sure.
@@ -172,22 +182,23 @@ struct Vote {
     sure: bool,
 }
 
-/// The class that most corners of each face have, but for those that know of none; of several the one with the smallest number.
-fn votes<I: Index>(graph: &FaceGraph<'_>, indices: &[I], classes: &[u8]) -> Result<Vec<Vote>, Error> {
+/// The class that most corners of each face have, but for those that know of none; of several the one with the smallest number. Corners on
+/// creases, which are not `known`, count where there are no others.
+fn votes<I: Index>(graph: &FaceGraph<'_>, indices: &[I], classes: &[u8], known: &[u8]) -> Result<Vec<Vote>, Error> {
     let mut votes = filled(graph.faces.len(), Vote::default())?;
     for (face, vote) in votes.iter_mut().enumerate().filter(|(face, _)| graph.is_used(*face)) {
         let corners = &indices[graph.faces.range(face)];
-        let class = |corner: I| classes[corner.widen() as usize];
-        let first = class(corners[0]);
-        if corners.iter().all(|&corner| class(corner) == first) {
-            *vote = Vote { class: first, sure: first != ShapeClass::Undefined as u8 };
-            continue;
-        }
         let mut counts = [0u32; CLASSES];
-        for &corner in corners {
-            counts[class(corner) as usize] += 1;
+        let mut count = 0;
+        for corner in corners.iter().map(|corner| corner.widen() as usize).filter(|&corner| known[corner] != 0) {
+            counts[classes[corner] as usize] += 1;
+            count += 1;
         }
-        *vote = Vote { class: most(&counts), sure: false };
+        if count == 0 {
+            corners.iter().for_each(|corner| counts[classes[corner.widen() as usize] as usize] += 1);
+        }
+        let class = most(&counts);
+        *vote = Vote { class, sure: class != ShapeClass::Undefined as u8 && counts[class as usize] == count };
     }
     Ok(votes)
 }

@@ -91,6 +91,19 @@ impl<'a, const N: usize> Output<'a, N> {
         }
     }
 
+    /// Writes element after element, from `first` on, the rows that `index` names; none of them is beyond the scalar's range.
+    pub(crate) fn write_rows<S: Real>(&self, first: usize, rows: &[[S; N]], index: &[u32]) {
+        if self.double {
+            for (place, &row) in index.iter().enumerate() {
+                self.write_double(first + place, rows[row as usize].map(Into::into));
+            }
+        } else {
+            for (place, &row) in index.iter().enumerate() {
+                self.write_single(first + place, rows[row as usize].map(|x| x.into() as f32));
+            }
+        }
+    }
+
     /// Writes the elements `vertices`, in the lanes whose bit is set in `lanes`, in whatever precision a kernel works in.
     #[inline(always)]
     pub(crate) fn write_lanes<V: Vector>(&self, vertices: &[u32], lanes: u32, values: &[V; N]) {

@@ -63,6 +63,19 @@ AdaptiveModel = struct(
 )
 NormalOptions = struct("NormalOptions", struct_size=u32, weight=u32, run=Run, degree=u32, rings=u32, model=pointer)
 NormalOutputs = struct("NormalOutputs", struct_size=u32, reserved=u32, normal=Output, sum=Output, status=StatusOutput)
+Creases = struct(
+    "Creases",
+    struct_size=u32,
+    reserved=u32,
+    angle=double,
+    edges=pointer,
+    edge_count=size,
+    groups=pointer,
+    group_count=size,
+)
+CornerOutputs = struct(
+    "CornerOutputs", struct_size=u32, reserved=u32, corner=Output, normal=Output, sum=Output, status=StatusOutput
+)
 CurvatureOptions = struct(
     "CurvatureOptions",
     **dict.fromkeys(("struct_size", "method", "section", "weight"), u32),
@@ -102,6 +115,10 @@ class Umbilic:
         self.library.umb_topology_destroy.argtypes = [pointer]
         self.library.umb_topology_destroy.restype = None
         self.library.umb_build_info.restype = ctypes.c_char_p
+        self.library.umb_cut_destroy.argtypes = [pointer]
+        self.library.umb_cut_destroy.restype = None
+        self.library.umb_cut_corners.argtypes = [pointer]
+        self.library.umb_cut_corners.restype = ctypes.POINTER(u32)
         for rings in ("umb_topology_ring_offsets", "umb_topology_ring_neighbours"):
             getattr(self.library, rings).argtypes = [pointer]
             getattr(self.library, rings).restype = ctypes.POINTER(u32)
@@ -111,6 +128,25 @@ class Umbilic:
 
     def mesh(self, faces, vertex_count):
         return Mesh(self, faces, vertex_count)
+
+    def corner_normals(self, triangles, positions, angle, weight="conformal"):
+        """Normals of the corners, `#F x 3 x 3`, split at edges sharper than the angle in radians, and for each corner the vertex
+        of the cut mesh."""
+        points, keep = points_of(positions, "f64")
+        indices = numpy.ascontiguousarray(triangles, numpy.uint32)
+        faces = Faces(indices=address(indices), index_count=indices.size, arity=3)
+        cut = pointer()
+        self.call(
+            "umb_cut_create", *map(ctypes.byref, (faces, points, sized(Creases, angle=angle))), None, ctypes.byref(cut)
+        )
+        normals, corner = output(indices.size, 3, "f64")
+        options = sized(NormalOptions, weight=WEIGHTS[weight])
+        outputs = sized(CornerOutputs, corner=corner)
+        self.call("umb_corner_normals", cut, *map(ctypes.byref, (points, options, outputs)))
+        corners = numpy.ctypeslib.as_array(self.library.umb_cut_corners(cut), (indices.size,)).copy()
+        self.library.umb_cut_destroy(cut)
+        del keep
+        return normals.reshape(-1, 3, 3), corners.reshape(-1, 3)
 
     def call(self, function, *arguments):
         error = sized(Error)
