@@ -115,17 +115,20 @@ fn flats_and_fillets_are_told_apart() {
     let solid = solids::filleted_box([1.0, 0.7, 0.5], 0.3, 8, 3);
     fs::write(folder.join("box.obj"), obj(&solid.mesh)).unwrap();
     assert_eq!(answer(folder, "segment box.obj")["segments"], 1);
-    let found = answer(folder, "segment box.obj --by regions --method least-squares -o out.ply --ascii");
-    // Six sides, twelve edges and eight corners.
-    let mut shapes = HashMap::new();
-    for segment in found["by_label"].as_array().unwrap() {
-        *shapes.entry(segment["shape"].as_str().unwrap()).or_insert(0) += 1;
-        let [k1, k2] = ["k1", "k2"].map(|name| segment[name].as_f64().unwrap());
-        assert!(k1 >= k2 && k2 > -1e-9, "{segment}");
+    let tolerance = answer(folder, "segment box.obj --by regions")["options"]["tolerance"].as_f64().unwrap();
+    for options in [String::new(), format!("--method least-squares --tolerance {}", tolerance / 2.0)] {
+        let found = answer(folder, &format!("segment box.obj --by regions {options} -o out.ply --ascii"));
+        // Six sides, twelve edges and eight corners.
+        let mut shapes = HashMap::new();
+        for segment in found["by_label"].as_array().unwrap() {
+            *shapes.entry(segment["shape"].as_str().unwrap()).or_insert(0) += 1;
+            let [k1, k2] = ["k1", "k2"].map(|name| segment[name].as_f64().unwrap());
+            assert!(k1 >= k2 && k2 > -0.1, "{segment}");
+        }
+        assert_eq!(shapes, HashMap::from([("flat", 6), ("ridge", 12), ("peak", 8)]), "{options}");
+        let labels: Vec<usize> = labelled(&folder.join("out.ply")).iter().map(|&(_, label)| label as usize).collect();
+        assert!(solids::renamed(&labels) == solids::renamed(&solid.sides), "{options}");
     }
-    assert_eq!(shapes, HashMap::from([("flat", 6), ("ridge", 12), ("peak", 8)]));
-    let labels: Vec<usize> = labelled(&folder.join("out.ply")).iter().map(|&(_, label)| label as usize).collect();
-    assert_eq!(solids::renamed(&labels), solids::renamed(&solid.sides));
     // All fillets are less than half of the surface.
     let few = answer(folder, "segment box.obj --by regions --method least-squares --smallest-share 0.5");
     assert_eq!(few["segments"], 1);

@@ -182,22 +182,13 @@ pub fn vertex_curvatures(
     Ok(found)
 }
 
-/// The number of the shape class of each vertex, from its principal curvatures, and the tolerance for that: the one given,
-/// or else one that goes with the size of the mesh.
-pub fn shape_classes(
-    mesh: &PolygonMesh,
-    found: &VertexCurvatures,
-    tolerance: Option<f64>,
-) -> Result<(Vec<u8>, f64), Error> {
-    let tolerance = match tolerance {
-        Some(tolerance) => tolerance,
-        None => umbilic::shape_tolerance(&Points::from(&mesh.positions))?,
-    };
+/// The number of the shape class of each vertex, from its principal curvatures.
+pub fn shape_classes(mesh: &PolygonMesh, found: &VertexCurvatures, tolerance: f64) -> Result<Vec<u8>, Error> {
     let mut classes = vec![0; mesh.vertex_count()];
     let [k1, k2] = [Quantity::K1, Quantity::K2].map(|quantity| found.quantity(quantity).unwrap_or_default().into());
     let output = classes.as_mut_slice().into();
     umbilic::shape_classes(&k1, &k2, Some(&found.status), tolerance, Run::default(), &output)?;
-    Ok((classes, tolerance))
+    Ok(classes)
 }
 
 /// What the library finds at each vertex of a polyline.

@@ -4,8 +4,8 @@ use crate::compute::{self, VertexCurvatures, with_progress};
 use crate::mesh::PolygonMesh;
 use crate::quantity::Quantity;
 use umbilic::{
-    CURVEDNESS_DEPTH, Creases, CurvatureOptions, Error, Faces, NO_SEGMENT, Points, RegionOptions, ScalarField,
-    Segmentation, ShapeClass, feature_segmentation, region_growing, shape_tolerance, watershed,
+    CURVEDNESS_DEPTH, Creases, CurvatureOptions, Error, Faces, NO_SEGMENT, Points, REGION_TOLERANCE, RegionOptions,
+    ScalarField, Segmentation, ShapeClass, feature_segmentation, region_growing, shape_tolerance, watershed,
 };
 
 /// How a mesh is cut; what is `None` goes with the size of the mesh.
@@ -38,7 +38,7 @@ pub struct Segment {
     pub area: f64,
     /// The means of the quantities in [`MEANS`] by area, where curvatures were computed.
     pub means: Option<[f64; MEANS.len()]>,
-    /// The class that most corners of its faces have, where there are classes.
+    /// The class of most corners of its faces that are not at its border, where there are classes.
     pub shape: Option<ShapeClass>,
 }
 
@@ -82,9 +82,13 @@ pub fn segment(
             (found, Some(depth), None)
         }
         Way::Regions { tolerance, options, .. } => {
-            let (classes, tolerance) = match curvatures {
-                Some(found) => compute::shape_classes(mesh, found, *tolerance)?,
-                None => (Vec::new(), 0.0),
+            let tolerance = match tolerance {
+                Some(tolerance) => *tolerance,
+                None => REGION_TOLERANCE * shape_tolerance(&points)?,
+            };
+            let classes = match curvatures {
+                Some(found) => compute::shape_classes(mesh, found, tolerance)?,
+                None => Vec::new(),
             };
             let found =
                 with_progress(mesh, 1, threads, |run| region_growing(&faces, &points, &classes, options, run))?;
@@ -118,15 +122,21 @@ pub fn segment(
     })
 }
 
-/// The class that most corners of each segment have, of several the one with the smallest number.
+/// The class that most corners of each segment have, of several the one with the smallest number. Vertices between segments tell
+/// nothing of either, and count only where there are no others.
 fn shapes(mesh: &PolygonMesh, found: &Segmentation, classes: &[u8]) -> Vec<ShapeClass> {
-    let mut counts = vec![[0_usize; ShapeClass::ALL.len()]; found.count()];
+    let mut inside = vec![true; mesh.vertex_count()];
+    for &vertex in found.boundary_edges().as_flattened() {
+        inside[vertex as usize] = false;
+    }
+    let mut counts = vec![[[0_usize; ShapeClass::ALL.len()]; 2]; found.count()];
     for (face, &label) in mesh.faces().zip(found.labels()).filter(|&(_, &label)| label != NO_SEGMENT) {
-        for &vertex in face {
-            counts[label as usize][classes[vertex as usize] as usize] += 1;
+        for vertex in face.iter().map(|&vertex| vertex as usize) {
+            counts[label as usize][usize::from(inside[vertex])][classes[vertex] as usize] += 1;
         }
     }
-    let most = |counts: &[usize; ShapeClass::ALL.len()]| {
+    let most = |[border, inside]: &[[usize; ShapeClass::ALL.len()]; 2]| {
+        let counts = if inside.iter().any(|&count| count > 0) { inside } else { border };
         let largest = counts.iter().copied().max().unwrap_or(0);
         let place = counts.iter().position(|&count| count == largest);
         place.map_or(ShapeClass::Undefined, |place| ShapeClass::ALL[place])

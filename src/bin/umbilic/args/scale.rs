@@ -8,7 +8,7 @@ use crate::quantity::Quantity;
 use crate::scale::{PERCENTILE, Scale};
 use clap::Args;
 use std::path::PathBuf;
-use umbilic::Error;
+use umbilic::{Error, Points, shape_tolerance};
 
 /// Which numbers get which colors.
 #[derive(Args)]
@@ -67,8 +67,11 @@ impl ColorScale {
         match subject {
             Subject::Quantity(quantity) => Ok(Coloring::Scale(quantity, self.scale(quantity, mesh, found))),
             Subject::Shape => {
-                let (classes, tolerance) = compute::shape_classes(mesh, found, self.tolerance)?;
-                Ok(Coloring::Shape { classes, tolerance })
+                let tolerance = match self.tolerance {
+                    Some(tolerance) => tolerance,
+                    None => shape_tolerance(&Points::from(&mesh.positions))?,
+                };
+                Ok(Coloring::Shape { classes: compute::shape_classes(mesh, found, tolerance)?, tolerance })
             }
         }
     }

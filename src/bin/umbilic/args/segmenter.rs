@@ -24,7 +24,7 @@ pub struct Segmenter {
     /// of the bounding box].
     #[arg(long, value_name = "X", value_parser = depth)]
     depth: Option<f64>,
-    /// By regions: curvatures of up to this, in 1/length, count as none [default: 1 by the diagonal of the bounding box].
+    /// By regions: curvatures of up to this, in 1/length, count as none [default: 2 by the diagonal of the bounding box].
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// By regions: those of less than this share of the whole area, 0 to 1, become part of a neighbour [default: 0.0005].

@@ -21,14 +21,15 @@ const LISTED: usize = 10;
 ///
 /// Prints the number of segments and of edges between them, and of the largest ones the label, the faces, the area and its share;
 /// by watershed and regions also the means of k1, k2 and curvedness by area, in 1/length, and by regions the class of shape that most
-/// corners have. Faces with fewer than three distinct corners are in no segment.
+/// corners inside have. Faces with fewer than three distinct corners are in no segment.
 ///
 /// The PLY file has the positions and faces of the input, and for each face its label, from 0 in the order of the first faces, -1
 /// where it is in no segment, and the color of the label (gray for -1) as red, green and blue. The picture has the same
 /// colors, mildly shaded by normals that are split at sharp edges.
 ///
-/// Curvatures are those of umbilic curvature, by any method with principal curvatures. On clean meshes of machine parts --by regions does
-/// best with --method least-squares, on scans with the default and a larger --tolerance.
+/// Curvatures are those of umbilic curvature, by any method with principal curvatures. On clean meshes of machine parts --method
+/// least-squares with half of the tolerance does as well as the default and is faster; with more noise than 1 % of the edges take a
+/// larger --smallest-share.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
