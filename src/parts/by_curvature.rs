@@ -66,7 +66,7 @@ pub fn regions_of_shape(
     let topology = Topology::with_threads(faces, points.len(), run.threads, run.level)?;
     let tolerance = match tolerance {
         Some(tolerance) => tolerance,
-        None => REGION_TOLERANCE * shape_tolerance(points)?,
+        None => (REGION_TOLERANCE * shape_tolerance(points)?).min(f64::MAX),
     };
     let mut classes: Vec<u8> = zeroed(points.len())?;
     let mut statuses: Vec<u8> = zeroed(points.len())?;
