@@ -243,6 +243,33 @@ fn the_table_has_the_largest_first() {
 }
 
 #[test]
+fn meshes_of_any_size_are_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let faces = "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+    for size in ["1e-310", "1e-150", "1e300"] {
+        let corners: String = (0..6)
+            .map(|corner| {
+                let sign = if corner % 2 == 0 { "" } else { "-" };
+                let axis = |axis| if corner / 2 == axis { format!("{sign}{size}") } else { "0".to_owned() };
+                format!("v {} {} {}\n", axis(0), axis(1), axis(2))
+            })
+            .collect();
+        fs::write(folder.join("octahedron.obj"), corners + faces).unwrap();
+        for (way, count) in [("features", 8), ("watershed", 1), ("regions", 8)] {
+            let line = format!("segment octahedron.obj --by {way} --picture a.png --size 20x20");
+            let found = answer(folder, &line);
+            assert_eq!(found["segments"], count, "{size}: {way}");
+            if size != "1e-310" {
+                let share = found["by_label"][0]["share"].as_f64().unwrap();
+                assert!((share - 1.0 / f64::from(count)).abs() < 1e-6, "{size}: {way}: {share}");
+            }
+        }
+        succeed(folder, "render octahedron.obj -o b.png --color shape --size 20x20");
+    }
+}
+
+#[test]
 fn what_a_way_of_cutting_does_not_have_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -42,6 +42,17 @@ pub struct Segment {
     pub shape: Option<ShapeClass>,
 }
 
+impl Segments {
+    /// The part that each segment has of the whole area; 0 where there is none.
+    pub fn shares(&self) -> Vec<f64> {
+        let areas = self.each.iter().map(|segment| segment.area);
+        let largest = areas.clone().fold(0.0, f64::max);
+        // In parts of the largest, since the sum may leave the range.
+        let whole: f64 = areas.clone().map(|area| area / largest).sum();
+        areas.map(|area| if largest > 0.0 { area / largest / whole } else { 0.0 }).collect()
+    }
+}
+
 /// The quantities of which segments have means.
 pub const MEANS: [Quantity; 3] = [Quantity::K1, Quantity::K2, Quantity::Curvedness];
 
@@ -84,7 +95,7 @@ pub fn segment(
         Way::Regions { tolerance, options, .. } => {
             let tolerance = match tolerance {
                 Some(tolerance) => *tolerance,
-                None => REGION_TOLERANCE * shape_tolerance(&points)?,
+                None => (REGION_TOLERANCE * shape_tolerance(&points)?).min(f64::MAX),
             };
             let classes = match curvatures {
                 Some(found) => compute::shape_classes(mesh, found, tolerance)?,
@@ -149,6 +160,18 @@ mod tests {
     use super::*;
     use crate::generate;
     use umbilic::{Run, regions_of_shape, watershed_of_curvedness};
+
+    #[test]
+    fn shares_add_up() {
+        for areas in [[1.0, 3.0], [f64::MAX, f64::MAX], [1e-320, 0.0]] {
+            let each = areas.map(|area| Segment { faces: 1, area, means: None, shape: None }).into();
+            let segments = Segments { labels: vec![0, 1], boundary_edges: 0, each, limit: None };
+            assert_eq!(segments.shares().iter().sum::<f64>(), 1.0);
+        }
+        let nothing = Segment { faces: 1, area: 0.0, means: None, shape: None };
+        let segments = Segments { labels: vec![0], boundary_edges: 0, each: vec![nothing], limit: None };
+        assert_eq!(segments.shares(), [0.0]);
+    }
 
     #[test]
     fn segments_are_those_of_the_library() {

@@ -130,7 +130,7 @@ impl Segment {
         rows.push(("time", times.map(|(key, time)| format!("{key} {time:.1?}")).join(", ")));
         let mut text = table::table(&rows);
 
-        let whole = whole(found);
+        let shares = found.shares();
         let mut largest: Vec<usize> = (0..found.each.len()).collect();
         // Stable, so of several as large the first comes first.
         largest.sort_by(|&a, &b| found.each[b].area.total_cmp(&found.each[a].area));
@@ -144,7 +144,7 @@ impl Segment {
         text += if first.shape.is_some() { "  shape\n" } else { "\n" };
         for &label in largest.iter().take(LISTED) {
             let segment = &found.each[label];
-            let share = 100.0 * share(segment.area, whole);
+            let share = 100.0 * shares[label];
             text += &format!("{label:>8}  {:>9}  {:>13}  {share:>5.1} %", segment.faces, table::number(segment.area));
             for mean in segment.means.iter().flatten() {
                 text += &format!("  {:>13}", table::number(*mean));
@@ -165,12 +165,12 @@ impl Segment {
         let options: Map<_, _> = options.chain(estimator).collect();
         let seconds: Map<_, _> =
             times.into_iter().map(|(key, time)| (key.to_owned(), time.as_secs_f64().into())).collect();
-        let whole = whole(found);
-        let each = found.each.iter().map(|segment| {
+        let shares = found.shares();
+        let each = found.each.iter().zip(&shares).map(|(segment, &share)| {
             let mut object = Map::new();
             object.insert("faces".to_owned(), segment.faces.into());
             object.insert("area".to_owned(), segment.area.into());
-            object.insert("share".to_owned(), share(segment.area, whole).into());
+            object.insert("share".to_owned(), share.into());
             for (quantity, mean) in MEANS.iter().zip(segment.means.iter().flatten()) {
                 object.insert(quantity.name().to_owned(), (*mean).into());
             }
@@ -195,14 +195,4 @@ impl Segment {
 /// The number of faces that are in no segment.
 fn ignored(found: &Segments) -> usize {
     found.labels.iter().filter(|&&label| label == NO_SEGMENT).count()
-}
-
-/// The area of all segments.
-fn whole(found: &Segments) -> f64 {
-    found.each.iter().map(|segment| segment.area).sum()
-}
-
-/// A part of the whole, which may be nothing.
-fn share(area: f64, whole: f64) -> f64 {
-    if whole > 0.0 { area / whole } else { 0.0 }
 }
