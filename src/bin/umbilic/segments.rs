@@ -36,7 +36,7 @@ pub struct Segment {
     pub faces: usize,
     /// Its area.
     pub area: f64,
-    /// The means of the quantities in [`MEANS`] by area, where curvatures were computed.
+    /// The means of the quantities in [`MEANS`] by area, over what is not at its border, where curvatures were computed.
     pub means: Option<[f64; MEANS.len()]>,
     /// The class of most corners of its faces that are not at its border, where there are classes.
     pub shape: Option<ShapeClass>,
@@ -106,14 +106,15 @@ pub fn segment(
             (found, Some(tolerance), Some(classes))
         }
     };
+    let inside = inside(mesh, &found);
     let means = match curvatures {
         None => None,
         Some(_) => {
-            let mean = |of| found.means(&faces, &points, &ScalarField::Vertices(quantity(of).into()));
+            let mean = |of| means(mesh, &found, &inside, quantity(of));
             Some([mean(MEANS[0])?, mean(MEANS[1])?, mean(MEANS[2])?])
         }
     };
-    let shapes = classes.map(|classes| shapes(mesh, &found, &classes));
+    let shapes = classes.map(|classes| shapes(mesh, &found, &inside, &classes));
     let mut counts = vec![0; found.count()];
     for &label in found.labels().iter().filter(|&&label| label != NO_SEGMENT) {
         counts[label as usize] += 1;
@@ -133,13 +134,38 @@ pub fn segment(
     })
 }
 
-/// The class that most corners of each segment have, of several the one with the smallest number. Vertices between segments tell
-/// nothing of either, and count only where there are no others.
-fn shapes(mesh: &PolygonMesh, found: &Segmentation, classes: &[u8]) -> Vec<ShapeClass> {
+/// Which vertices are not between segments. Those that are tell nothing of either, since creases are there, or mixtures of both
+/// sides: they count only where a segment has no others.
+fn inside(mesh: &PolygonMesh, found: &Segmentation) -> Vec<bool> {
     let mut inside = vec![true; mesh.vertex_count()];
     for &vertex in found.boundary_edges().as_flattened() {
         inside[vertex as usize] = false;
     }
+    inside
+}
+
+/// The mean of a scalar at vertices over each segment, by area.
+fn means(mesh: &PolygonMesh, found: &Segmentation, inside: &[bool], values: &[f64]) -> Result<Vec<f64>, Error> {
+    let (faces, points) = (Faces::polygons(&mesh.indices, &mesh.offsets)?, Points::from(&mesh.positions));
+    // What the corners inside have of each face, and of its mean.
+    let part = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let of_face = |face: &[u32]| {
+            let corners = face.iter().map(|&vertex| vertex as usize).filter(|&vertex| inside[vertex]);
+            let sum: f64 = corners.map(|vertex| value(vertex) / face.len() as f64).sum();
+            // Thirds of the largest number are rounded up.
+            sum.clamp(-f64::MAX, f64::MAX)
+        };
+        mesh.faces().map(of_face).collect()
+    };
+    let mean = |of_faces: Vec<f64>| found.means(&faces, &points, &ScalarField::Faces(of_faces.as_slice().into()));
+    let [parts, sums] = [mean(part(&|_| 1.0))?, mean(part(&|vertex| values[vertex]))?];
+    let all = found.means(&faces, &points, &ScalarField::Vertices(values.into()))?;
+    let ratio = |((part, sum), all)| if part > 0.0 { f64::clamp(sum / part, -f64::MAX, f64::MAX) } else { all };
+    Ok(parts.into_iter().zip(sums).zip(all).map(ratio).collect())
+}
+
+/// The class that most corners of each segment have, of several the one with the smallest number.
+fn shapes(mesh: &PolygonMesh, found: &Segmentation, inside: &[bool], classes: &[u8]) -> Vec<ShapeClass> {
     let mut counts = vec![[[0_usize; ShapeClass::ALL.len()]; 2]; found.count()];
     for (face, &label) in mesh.faces().zip(found.labels()).filter(|&(_, &label)| label != NO_SEGMENT) {
         for vertex in face.iter().map(|&vertex| vertex as usize) {
@@ -171,6 +197,31 @@ mod tests {
         let nothing = Segment { faces: 1, area: 0.0, means: None, shape: None };
         let segments = Segments { labels: vec![0], boundary_edges: 0, each: vec![nothing], limit: None };
         assert_eq!(segments.shares(), [0.0]);
+    }
+
+    #[test]
+    fn what_is_at_the_border_does_not_count() {
+        // A strip of four squares, which is folded in the middle.
+        let positions = (0..10).map(|vertex| {
+            let [x, y] = [vertex / 2, vertex % 2].map(f64::from);
+            if x > 2.0 { [2.0, y, x - 2.0] } else { [x, y, 0.0] }
+        });
+        let faces = [0, 2, 4, 6].map(|first| [first, first + 2, first + 3, first + 1]);
+        let mesh = PolygonMesh::from_uniform_faces(positions.collect(), &faces);
+        let way = Way::Features { angle: 1.0 };
+        let found = segment(&mesh, &way, None, 1).unwrap();
+        assert_eq!((found.labels.as_slice(), found.boundary_edges), (&[0, 0, 1, 1][..], 1));
+        let faces = Faces::polygons(&mesh.indices, &mesh.offsets).unwrap();
+        let (points, creases) = (Points::from(&mesh.positions), Creases { angle: 1.0, ..Creases::default() });
+        let found = feature_segmentation(&faces, &points, &creases, Run::default()).unwrap();
+        let inside = inside(&mesh, &found);
+        let values = [1.0, 1.0, 4.0, 4.0, 1e9, 1e9, 5.0, 5.0, 5.0, 5.0];
+        let close = means(&mesh, &found, &inside, &values).unwrap().into_iter().zip([3.0, 5.0]);
+        assert!(close.clone().all(|(mean, exact)| (mean - exact).abs() < 1e-12), "{close:?}");
+        let classes = [4, 4, 1, 1, 2, 2, 7, 7, 7, 7];
+        assert_eq!(shapes(&mesh, &found, &inside, &classes), [ShapeClass::Peak, ShapeClass::Valley]);
+        // Where everything is at a border, all of it counts.
+        assert_eq!(means(&mesh, &found, &[false; 10], &[2.0; 10]).unwrap(), [2.0; 2]);
     }
 
     #[test]

@@ -21,7 +21,8 @@ const LISTED: usize = 10;
 ///
 /// Prints the number of segments and of edges between them, and of the largest ones the label, the faces, the area and its share;
 /// by watershed and regions also the means of k1, k2 and curvedness by area, in 1/length, and by regions the class of shape that most
-/// corners inside have. Faces with fewer than three distinct corners are in no segment.
+/// corners have. For both, vertices between segments count only where there are no others. Faces with fewer than three distinct
+/// corners are in no segment.
 ///
 /// The PLY file has the positions and faces of the input, and for each face its label, from 0 in the order of the first faces, -1
 /// where it is in no segment, and the color of the label (gray for -1) as red, green and blue. The picture has the same
