@@ -3,14 +3,17 @@
 //! Any of the three makes an edge a crease. An edge with one face, or with more than two, or whose two faces run through it in the same
 //! direction, separates its faces in any case and is not asked about. A face without area has no normal, and no edge of it is sharp.
 //!
-//! Numerical notes: unit normals are those of [`face_normals`](crate::face_normals), in `f64`; angles are compared by
+//! Numerical notes: unit normals are those of [`face_normals`](crate::face_normals), in `f64` and to its last digits; angles are compared by
 //! the chord between the normals, which keeps its digits where the angle is small; equal to 1e-12 of its square is
 //! not sharper. Cost: linear in the number of corners, and a bisection of the marked edges for each.
 
-use crate::error::{Error, filled, reserved};
+use crate::error::Error;
+use crate::parallel::fill;
 use crate::sweep::area_vector;
 use crate::topology::{Adjacency, NO_CORNER};
-use crate::view::{Coordinate, Faces, Index, Indices, PointArray, Points, StridedPoints, with_indices, zeroed};
+use crate::view::{
+    Coordinate, Faces, Index, Indices, PointArray, Points, StridedPoints, filled, room, with_indices, zeroed,
+};
 use glam::DVec3;
 
 /// The largest angle between the normals of two faces that [`Creases::default`] takes for smooth: 30°.
@@ -46,6 +49,7 @@ impl Creases<'_> {
         points: &Points<'_>,
         adjacency: &Adjacency,
         face_of: &[u32],
+        threads: usize,
     ) -> Result<Vec<u8>, Error> {
         if self.angle.is_nan() || self.angle < 0.0 {
             return Err(Error::OptionOutOfRange { what: "creases.angle" });
@@ -60,7 +64,7 @@ impl Creases<'_> {
         Indices::from(self.edges.as_flattened()).check_range("creases.edges", points.len())?;
         let mut creases: Vec<u8> = zeroed(face_of.len())?;
         if self.angle < std::f64::consts::PI {
-            let normals = unit_normals(faces, points)?;
+            let normals = unit_normals(faces, points, threads)?;
             let sharp = Sharp::than(self.angle);
             mark(&mut creases, adjacency, |corner, other| {
                 sharp.is_between(normals[face_of[corner] as usize], normals[face_of[other] as usize])
@@ -73,7 +77,7 @@ impl Creases<'_> {
             });
         }
         if !self.edges.is_empty() {
-            let mut marked: Vec<u64> = reserved(self.edges.len())?;
+            let mut marked: Vec<u64> = room(self.edges.len())?;
             marked.extend(self.edges.iter().map(|&[a, b]| key(a, b)));
             marked.sort_unstable();
             with_indices!(faces.indices(), indices => mark(&mut creases, adjacency, |corner, other| {
@@ -109,25 +113,40 @@ pub(crate) fn faces_of_corners(faces: &Faces<'_>) -> Result<Vec<u32>, Error> {
     Ok(face_of)
 }
 
-/// Unit face normals; zero where there is none.
-pub(crate) fn unit_normals(faces: &Faces<'_>, points: &Points<'_>) -> Result<Vec<DVec3>, Error> {
+/// Unit face normals, by as many threads as `threads` asks for; zero where there is none.
+pub(crate) fn unit_normals(faces: &Faces<'_>, points: &Points<'_>, threads: usize) -> Result<Vec<DVec3>, Error> {
     fn each<S: Coordinate, I: Index>(
         faces: &Faces<'_>,
         indices: &[I],
         points: &StridedPoints<'_, S>,
+        threads: usize,
         normals: &mut [DVec3],
     ) {
-        for (face, normal) in normals.iter_mut().enumerate() {
-            let found = area_vector(points, &indices[faces.range(face)]);
-            *normal = found.map_or(DVec3::ZERO, |found| found.normal);
-        }
+        fill(threads, normals, |face| {
+            let corners = &indices[faces.range(face)];
+            let plain = match corners {
+                &[a, b, c] => plain_normal([a, b, c].map(|corner| points.get(corner.widen() as usize))),
+                _ => None,
+            };
+            plain.or_else(|| area_vector(points, corners).map(|found| found.normal)).unwrap_or(DVec3::ZERO)
+        });
     }
     let mut normals = filled(faces.len(), DVec3::ZERO)?;
     with_indices!(faces.indices(), indices => match points.array() {
-        PointArray::F32(points) => each(faces, indices, points, &mut normals),
-        PointArray::F64(points) => each(faces, indices, points, &mut normals),
+        PointArray::F32(points) => each(faces, indices, points, threads, &mut normals),
+        PointArray::F64(points) => each(faces, indices, points, threads, &mut normals),
     });
     Ok(normals)
+}
+
+/// The unit normal of a triangle that is neither thin, large nor small, to a few units in the last place: the angle at its first
+/// corner has a sine above 0.01, so its cross product keeps all but two digits.
+#[inline(always)]
+fn plain_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (b, c) = (b - a, c - a);
+    let cross = b.cross(c);
+    let (squared, bound) = (cross.length_squared(), b.length_squared() * c.length_squared());
+    (squared > 1e-4 * bound && squared > 1e-200 && bound < 1e200).then(|| cross / squared.sqrt())
 }
 
 /// Compares angles between unit vectors with a given one.

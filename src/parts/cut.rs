@@ -15,10 +15,10 @@
 
 use super::creases::{Creases, faces_of_corners};
 use super::sets::Sets;
-use crate::error::{Error, reserved};
+use crate::error::Error;
 use crate::parallel::Run;
 use crate::topology::{Adjacency, NO_CORNER, Topology, has_three_corners};
-use crate::view::{Faces, Index, Output, Points, with_indices, zeroed};
+use crate::view::{Faces, Index, Output, Points, room, with_indices, zeroed};
 
 /// A mesh cut open along its creases.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl CutMesh {
         let adjacency = Adjacency::new(faces, points.len())?;
         points.check_finite()?;
         let face_of = faces_of_corners(faces)?;
-        let marked = creases.find(faces, points, &adjacency, &face_of)?;
+        let marked = creases.find(faces, points, &adjacency, &face_of, run.threads)?;
         let (corners, origins) = with_indices!(faces.indices(), indices => {
             number(faces, indices, points.len(), &adjacency, &marked, &face_of)
         })?;
@@ -121,7 +121,7 @@ fn number<I: Index>(
     for vertex in 0..vertex_count {
         starts[vertex + 1] = starts[vertex] + starts[vertex + 1].max(1);
     }
-    let mut origins: Vec<u32> = reserved(starts[vertex_count] as usize)?;
+    let mut origins: Vec<u32> = room(starts[vertex_count] as usize)?;
     for vertex in 0..vertex_count {
         origins.extend((starts[vertex]..starts[vertex + 1]).map(|_| vertex as u32));
     }

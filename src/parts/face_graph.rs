@@ -1,10 +1,10 @@
 //! Faces as the nodes of a graph, joined where they meet across an edge, and what segmentations need to know of each.
 
 use super::creases::{Sharp, faces_of_corners, unit_normals};
-use crate::error::{Error, filled};
+use crate::error::Error;
 use crate::parallel::Run;
 use crate::topology::{Adjacency, NO_CORNER, has_three_corners};
-use crate::view::{Faces, Index, Points, with_indices, zeroed};
+use crate::view::{Faces, Index, Points, filled, with_indices, zeroed};
 use glam::DVec3;
 
 /// Stands where no face is on the other side of an edge.
@@ -82,8 +82,8 @@ impl<'a> FaceGraph<'a> {
 
     /// Unit normals of faces. One that has no area takes the normal of a neighbour, across its longest edge to one that has a
     /// normal by then, as if it were a fold of it: so it separates nothing, and joins nothing that its neighbours do not.
-    pub fn normals(&self, points: &Points<'_>) -> Result<Vec<DVec3>, Error> {
-        let mut normals = unit_normals(self.faces, points)?;
+    pub fn normals(&self, points: &Points<'_>, threads: usize) -> Result<Vec<DVec3>, Error> {
+        let mut normals = unit_normals(self.faces, points, threads)?;
         let lacks =
             |normals: &[DVec3], face: u32| self.is_used(face as usize) && normals[face as usize] == DVec3::ZERO;
         // Faces to look at next, all at the same number of steps from those with a normal.

@@ -36,11 +36,11 @@ pub fn feature_segmentation(
     points.check_finite()?;
     let face_of = faces_of_corners(faces)?;
     report(&mut run, 0.3)?;
-    let marked = creases.find(faces, points, &adjacency, &face_of)?;
+    let marked = creases.find(faces, points, &adjacency, &face_of, run.threads)?;
     let graph = FaceGraph::with(faces, &adjacency, &face_of)?;
     drop((adjacency, face_of));
     report(&mut run, 0.6)?;
-    let normals = graph.normals(points)?;
+    let normals = graph.normals(points, run.threads)?;
     report(&mut run, 0.8)?;
     let mut sets = Sets::new(faces.len())?;
     graph.for_each_edge(|corner, face, other| {

@@ -29,9 +29,9 @@ use super::segmentation::{NO_SEGMENT, Segmentation, face_areas, unit_of};
 use super::sets::Sets;
 use super::shape::ShapeClass;
 use super::small_regions::{Borders, Regions, Smallest, merge_small};
-use crate::error::{Error, filled};
+use crate::error::Error;
 use crate::parallel::Run;
-use crate::view::{Faces, Index, Points, with_indices, zeroed};
+use crate::view::{Faces, Index, Points, filled, with_indices, zeroed};
 
 /// How regions grow.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +79,7 @@ pub fn region_growing(
     let graph = FaceGraph::new(faces, points.len())?;
     report(&mut run, 0.3)?;
     points.check_finite()?;
-    let normals = graph.normals(points)?;
+    let normals = graph.normals(points, run.threads)?;
     report(&mut run, 0.5)?;
     let smooth = |a: u32, b: u32| {
         options.angle >= std::f64::consts::PI || !sharp.is_between(normals[a as usize], normals[b as usize])

@@ -13,11 +13,11 @@
 
 use super::face_graph::{FaceGraph, NO_FACE};
 use super::scalar_field::ScalarField;
-use crate::error::{Error, filled};
+use crate::error::Error;
 use crate::simd::Real;
 use crate::sweep::area_vector;
 use crate::topology::has_three_corners;
-use crate::view::{Coordinate, Faces, Index, PointArray, Points, StridedPoints, with_indices, zeroed};
+use crate::view::{Coordinate, Faces, Index, PointArray, Points, StridedPoints, filled, with_indices, zeroed};
 
 /// The label of faces that are ignored.
 pub const NO_SEGMENT: u32 = u32::MAX;

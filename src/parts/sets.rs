@@ -1,6 +1,7 @@
 //! Disjoint sets of numbers, each set told by its smallest.
 
-use crate::error::{Error, reserved};
+use crate::error::Error;
+use crate::view::room;
 
 /// A partition of `0..count`.
 pub(super) struct Sets(Vec<u32>);
@@ -8,7 +9,7 @@ pub(super) struct Sets(Vec<u32>);
 impl Sets {
     /// Every number by itself.
     pub fn new(count: usize) -> Result<Self, Error> {
-        let mut parents = reserved(count)?;
+        let mut parents = room(count)?;
         parents.extend(0..count as u32);
         Ok(Sets(parents))
     }

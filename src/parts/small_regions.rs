@@ -8,8 +8,8 @@
 //! For that, the edges around a region are a circular list, and two lists become one by an exchange.
 
 use super::sets::Sets;
-use crate::error::{Error, filled, reserved};
-use crate::view::zeroed;
+use crate::error::Error;
+use crate::view::{filled, room, zeroed};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -46,7 +46,7 @@ pub(super) struct Borders {
 
 impl Borders {
     pub fn new(region_count: usize, edge_count: usize) -> Result<Self, Error> {
-        let edges = reserved(edge_count.checked_mul(2).ok_or(Error::OutOfMemory)?)?;
+        let edges = room(edge_count.checked_mul(2).ok_or(Error::OutOfMemory)?)?;
         Ok(Borders { edges, of_region: filled(region_count, NONE)? })
     }
 
@@ -109,7 +109,7 @@ pub(super) fn merge_small(mut regions: Regions, mut borders: Borders, smallest: 
         waiting.push(Reverse((regions.faces[region as usize], region)));
     }
     let mut shared = filled(count, Shared::default())?;
-    let mut neighbours: Vec<u32> = reserved(count)?;
+    let mut neighbours: Vec<u32> = room(count)?;
     let mut met: Vec<u8> = zeroed(count)?;
     while let Some(Reverse((faces, region))) = waiting.pop() {
         if sets.root(region) != region || regions.faces[region as usize] != faces || !is_small(&regions, region) {

@@ -23,9 +23,9 @@ use super::face_graph::{FaceGraph, NO_FACE, report, report_end};
 use super::scalar_field::ScalarField;
 use super::segmentation::Segmentation;
 use super::sets::Sets;
-use crate::error::{Error, filled, reserved};
+use crate::error::Error;
 use crate::parallel::Run;
-use crate::view::{Faces, zeroed};
+use crate::view::{Faces, filled, room, zeroed};
 
 /// Stands for faces that the water has not reached yet.
 const DRY: u32 = u32::MAX;
@@ -52,7 +52,7 @@ pub fn watershed(
     let graph = FaceGraph::new(faces, vertex_count)?;
     report(&mut run, 0.4)?;
     let heights = height.of_faces(faces, run.threads)?;
-    let mut order: Vec<(u64, u32)> = reserved(faces.len())?;
+    let mut order: Vec<(u64, u32)> = room(faces.len())?;
     let used = (0..faces.len()).filter(|&face| graph.is_used(face));
     order.extend(used.map(|face| (ordered(heights[face]), face as u32)));
     order.sort_unstable();
@@ -63,7 +63,7 @@ pub fn watershed(
         basins: filled(faces.len(), DRY)?,
         sets: Sets::new(faces.len())?,
         lowest: zeroed(faces.len())?,
-        queue: reserved(faces.len())?,
+        queue: room(faces.len())?,
         depth,
     };
     let mut done = 0;

@@ -6,8 +6,8 @@
 //! Cost: linear in the number of corners, apart from sorting the edges at each vertex. Held are 4 bytes a corner; while building,
 //! 8 more, and 4 a vertex.
 
-use crate::error::{Error, filled};
-use crate::view::{Faces, Index, with_indices, zeroed};
+use crate::error::Error;
+use crate::view::{Faces, Index, filled, with_indices, zeroed};
 
 /// Stands where there is no corner: at an edge with one face, with more than two, or with two of the same direction.
 pub(crate) const NO_CORNER: u32 = u32::MAX;

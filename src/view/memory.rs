@@ -67,6 +67,13 @@ pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
     Ok(rows)
 }
 
+/// A vector of `count` copies of `value`, or [`Error::OutOfMemory`].
+pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, Error> {
+    let mut rows = room(count)?;
+    rows.resize(count, value);
+    Ok(rows)
+}
+
 /// Asks for huge pages in a large block that has not been touched yet: first touches cost more than a topology's whole
 /// algorithm, and a huge page takes one where small ones take 512.
 ///

@@ -20,7 +20,7 @@ mod threads;
 pub(crate) use cores::core_count;
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};
-pub(crate) use memory::{Zero, boxed, zeroed};
+pub(crate) use memory::{Zero, boxed, filled, room, zeroed};
 pub use output::{Output, ScalarOutput, StatusOutput};
 pub use points::Points;
 pub(crate) use points::{Coordinate, PointArray, StridedPoints};
