@@ -1,5 +1,6 @@
 /*
- * umbilic: vertex normals and curvatures of polygon meshes, and curvatures of polylines, on the caller's own memory.
+ * umbilic: vertex normals, corner normals, curvatures and segments of polygon meshes, and curvatures of polylines, on the caller's own
+ * memory.
  *
  * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed
  * from positions as often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
@@ -2397,7 +2398,8 @@ umb_status umb_segment_watershed(const struct umb_faces *faces,
  * part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
  *
  * By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
- * larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`) do as well and are faster. Two
+ * larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`), with half the
+ * tolerance, do as well and are faster. Two
  * parts of one class that join smoothly are not separated, nor is a cone, whose curvature has no bound, from what is flat at
  * its wide end by any tolerance.
  *

@@ -176,7 +176,8 @@ pub unsafe extern "C" fn umb_segment_watershed(
 /// part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
 ///
 /// By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
-/// larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`) do as well and are faster. Two
+/// larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`), with half the
+/// tolerance, do as well and are faster. Two
 /// parts of one class that join smoothly are not separated, nor is a cone, whose curvature has no bound, from what is flat at
 /// its wide end by any tolerance.
 ///

@@ -17,7 +17,7 @@
 //!
 //! What serves machine parts best, clean and with noise of 1 % of the edges, is [`Method::AdaptiveJet`](crate::Method::AdaptiveJet) with twice
 //! [`shape_tolerance`](crate::shape_tolerance), as [`regions_of_shape`](crate::regions_of_shape) has it; on clean ones
-//! [`Method::LeastSquares`](crate::Method::LeastSquares) does as well. With more noise take a larger smallest region.
+//! [`Method::LeastSquares`](crate::Method::LeastSquares) with half of that does as well. With more noise take a larger smallest region.
 //!
 //! A face without area takes the normal of a neighbour. Numerical notes: angles are compared by the chord between unit normals; normals,
 //! lengths and areas are in `f64`. All ties are broken by the index of the face. Cost: O(n log n) for the faces that are not sure and the regions that are too small; the rest is
