@@ -215,9 +215,12 @@ $(PAPER_VENV)/done: benches/paper/requirements.txt
 pictures: $(LIBRARY) $(MESHES) $(VENV)/scans
 	target/release/umbilic render $(MESHES)/elephant.off -o docs/elephant.png --color mean --size 640x560 --azimuth -10
 	target/release/umbilic render $(MESHES)/fandisk.off -o docs/fandisk.png --color k1 --size 640x560
-	target/release/umbilic segment $(MESHES)/fandisk.off --picture docs/fandisk_segments.png --size 400x350
-	target/release/umbilic segment $(MESHES)/anchor.off --by regions --picture docs/anchor_segments.png --size 400x350
-	target/release/umbilic segment $(MESHES)/elephant.off --by watershed --picture docs/elephant_segments.png --size 400x350 --azimuth -10
+	target/release/umbilic segment $(MESHES)/fandisk.off --picture docs/fandisk_faces.png --size 320x280
+	target/release/umbilic segment $(MESHES)/anchor_dense.off --picture docs/anchor_faces.png --size 320x280
+	target/release/umbilic segment $(MESHES)/fandisk.off --by regions --smallest-share 0.002 --picture docs/fandisk_regions.png \
+	  --size 320x280
+	target/release/umbilic segment $(MESHES)/elephant.off --by watershed --picture docs/elephant_basins.png --size 320x280 \
+	  --azimuth -10
 	$(VENV)/bin/python -B benches/scans/scans.py $(LIBRARY) $(MESHES)
 
 $(VENV)/scans: benches/scans/requirements.txt $(VENV)/done
