@@ -87,20 +87,6 @@ static void curvatures(const struct mesh *mesh) {
   umb_cut_destroy(cut);
 }
 
-/* The unit cube, of quads. */
-static struct mesh cube(void) {
-  static const uint32_t corners[24] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
-  struct mesh mesh = mesh_of(8, 6, 24, 1);
-  for (uint32_t v = 0; v < 8; v++) mesh_place(&mesh, v, v & 1, v >> 1 & 1, v >> 2);
-  memcpy(mesh.indices, corners, sizeof corners);
-  for (uint32_t f = 0; f <= 6; f++) mesh.offsets[f] = 4 * f;
-  return mesh;
-}
-
-static void refused(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
-  CHECK(found == expected && error->status == expected && error->element == element && error->message[0] != '\0');
-}
-
 static void refusals(const struct mesh *mesh) {
   umb_error error = UMB_ERROR_INIT;
   umb_faces faces = faces_of(mesh);
