@@ -161,8 +161,12 @@ static inline umb_topology *topology_of(const struct mesh *mesh, uint32_t thread
 }
 
 /* A call that must fail like this, and say so. */
-static inline void refused(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
-  CHECK(found == expected && error->status == expected && error->element == element && error->message[0] != '\0');
+static inline void fails(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
+  if (found != expected || error->status != expected || error->element != element || error->message[0] == '\0') {
+    fprintf(stderr, "status %d instead of %d, element %llu: %s\n", (int)found, (int)expected,
+            (unsigned long long)error->element, error->message);
+    exit(EXIT_FAILURE);
+  }
 }
 
 /* An array for a call to write: `components` scalars for each of `count` elements, `gap` scalars between elements and

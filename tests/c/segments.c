@@ -255,7 +255,7 @@ static void updates(struct mesh *mesh) {
     moved.vertices = moved_vertices;
     moved.vertex_count = 3;
     if (weight == UMB_WEIGHT_ADAPTIVE_JET) {
-      refused(umb_affected_normals(topology, &moved, &options, list, &found, &error), UMB_ERROR_NOT_APPLICABLE, &error,
+      fails(umb_affected_normals(topology, &moved, &options, list, &found, &error), UMB_ERROR_NOT_APPLICABLE, &error,
               UMB_NO_ELEMENT);
       SUCCEEDS(umb_learn_model(topology, &points, NULL, &model, &error));
       options.model = &model;
@@ -369,7 +369,7 @@ static void cancelled(const struct mesh *mesh) {
         CHECK(status == UMB_OK && watch.calls > 0 && watch.last == 1);
         reports = watch.calls;
       } else if (cancels < reports) {
-        refused(status, UMB_ERROR_CANCELLED, &error, UMB_NO_ELEMENT);
+        fails(status, UMB_ERROR_CANCELLED, &error, UMB_NO_ELEMENT);
         CHECK(watch.calls == cancels && segmentation == NULL);
       } else {
         CHECK(watch.calls == cancels);
@@ -394,58 +394,58 @@ static void refused_shapes(const struct mesh *mesh) {
   uint32_t vertex = 0;
   double tolerance = -1;
   double *numbers = (double *)(void *)k1.data;
-  refused(umb_shape_tolerance(NULL, &tolerance, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_tolerance(&points, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(&points, NULL, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(&points, &good, NULL, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(&points, &good, &good, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(&points, &good, &good, NULL, &nothing, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(NULL, &good, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_shape_classes(&points, &good, &less, NULL, &output, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_shape_tolerance(NULL, &tolerance, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_tolerance(&points, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, NULL, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &good, NULL, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, NULL, &nothing, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(NULL, &good, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &good, &less, NULL, &output, &error), UMB_ERROR_SIZE, &error, no);
   bad = good;
   bad.scalar = 2;
-  refused(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
+  fails(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
   bad = good;
   bad.location = 2;
-  refused(umb_shape_classes(&points, &good, &bad, NULL, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
+  fails(umb_shape_classes(&points, &good, &bad, NULL, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
   bad = good;
   bad.stride = 9;
-  refused(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_STRIDE, &error, no);
+  fails(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_STRIDE, &error, no);
   bad = good;
   bad.data = k1.data + 1;
-  refused(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_MISALIGNED, &error, no);
+  fails(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_MISALIGNED, &error, no);
   bad = good;
   bad.data = NULL;
-  refused(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &bad, &good, NULL, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
   options.reserved = 1;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
   options.reserved = 0;
   options.struct_size = 71;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_STRUCT_SIZE, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_STRUCT_SIZE, &error, no);
   options.struct_size = (uint32_t)sizeof options;
   options.tolerance = -1;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   options.tolerance = (double)NAN;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   options.tolerance = (double)INFINITY;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   options.tolerance = 0;
   options.status_count = 1;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
   options.status = classes;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_SIZE, &error, no);
   options.status = NULL;
   options.status_count = 0;
   options.run.simd = 5;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 5);
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 5);
   options.run.simd = 0;
   options.run.vertices = &vertex;
-  refused(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_FIELD, &error,
+  fails(umb_shape_classes(&points, &good, &good, &options, &output, &error), UMB_ERROR_UNKNOWN_FIELD, &error,
           offsetof(umb_shape_options, run) + offsetof(umb_run, vertices));
   numbers[4] = (double)NAN;
-  refused(umb_shape_classes(&points, &good, &good, NULL, &output, &error), UMB_ERROR_NON_FINITE, &error, 4);
+  fails(umb_shape_classes(&points, &good, &good, NULL, &output, &error), UMB_ERROR_NON_FINITE, &error, 4);
   mesh->positions[3 * 5] = (double)NAN;
-  refused(umb_shape_tolerance(&points, &tolerance, &error), UMB_ERROR_NON_FINITE, &error, 5);
+  fails(umb_shape_tolerance(&points, &tolerance, &error), UMB_ERROR_NON_FINITE, &error, 5);
   mesh->positions[3 * 5] = 1;
   CHECK(tolerance == -1);
   for (size_t i = 0; i < mesh->vertex_count; i++) CHECK(classes[i] == 0x5a);
@@ -458,26 +458,26 @@ static void refused_shapes(const struct mesh *mesh) {
 #define REFUSED_BY(call, options, type) \
   do { \
     uint32_t vertex_ = 0; \
-    refused(call(NULL, &points, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no); \
-    refused(call(&faces, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no); \
-    refused(call(&faces, &points, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no); \
-    refused(call(&wrong, &points, NULL, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 7); \
-    refused(call(&faces, &none, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 6); \
+    fails(call(NULL, &points, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no); \
+    fails(call(&faces, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no); \
+    fails(call(&faces, &points, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no); \
+    fails(call(&wrong, &points, NULL, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 7); \
+    fails(call(&faces, &none, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 6); \
     (options).reserved = 1; \
-    refused(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4); \
+    fails(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4); \
     (options).reserved = 0; \
     (options).struct_size = 8; \
-    refused(call(&faces, &points, &(options), &null, &error), UMB_ERROR_STRUCT_SIZE, &error, no); \
+    fails(call(&faces, &points, &(options), &null, &error), UMB_ERROR_STRUCT_SIZE, &error, no); \
     (options).struct_size = (uint32_t)sizeof(options); \
     (options).run.simd = 5; \
-    refused(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 5); \
+    fails(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 5); \
     (options).run.simd = 0; \
     (options).run.vertices = &vertex_; \
-    refused(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, \
+    fails(call(&faces, &points, &(options), &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, \
             offsetof(type, run) + offsetof(umb_run, vertices)); \
     (options).run.vertices = NULL; \
     mesh->positions[3 * 5] = (double)NAN; \
-    refused(call(&faces, &points, &(options), &null, &error), UMB_ERROR_NON_FINITE, &error, 5); \
+    fails(call(&faces, &points, &(options), &null, &error), UMB_ERROR_NON_FINITE, &error, 5); \
     mesh->positions[3 * 5] = 1; \
     CHECK(null == NULL); \
   } while (0)
@@ -505,72 +505,72 @@ static void refused_segmentations(const struct mesh *mesh) {
 
   features.creases = &creases;
   creases.angle = -1;
-  refused(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   creases.angle = (double)NAN;
-  refused(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   creases.angle = 0;
   creases.reserved = 1;
-  refused(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
+  fails(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
   creases.reserved = 0;
   creases.edge_count = 1;
-  refused(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segment_features(&faces, &points, &features, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
 
   /* What is missing has a number; a height has none of its own. */
   curvature.method = UMB_CURVATURE_ANGLE_DEFECT;
   watershed.curvature = regions.curvature = &curvature;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
   curvature.method = 99;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
   watershed.curvature = regions.curvature = NULL;
 
   for (int given = 0; given < 2; given++) {
     watershed.height = given ? &height : NULL;
     watershed.depth = -1;
-    refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     watershed.depth = (double)NAN;
-    refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     watershed.depth = 0;
   }
   height.location = UMB_AT_FACES;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_SIZE, &error, no);
   height.location = 3;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 3);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 3);
   height.location = UMB_AT_VERTICES;
   height.scalar = 4;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 4);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 4);
   height.scalar = UMB_SCALAR_F64;
   height.count--;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_SIZE, &error, no);
   height.count++;
   numbers[6] = (double)INFINITY;
-  refused(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_NON_FINITE, &error, 6);
+  fails(umb_segment_watershed(&faces, &points, &watershed, &null, &error), UMB_ERROR_NON_FINITE, &error, 6);
 
   for (int given = 0; given < 2; given++) {
     regions.classes = given ? classes : NULL;
     regions.class_count = given ? 8 : 0;
     classes[7] = UMB_SHAPE_FLAT;
     regions.angle = -1;
-    refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     regions.angle = (double)NAN;
-    refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     regions.angle = 0;
     regions.smallest_share = 1.5;
-    refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     regions.smallest_share = -0.5;
-    refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+    fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
     regions.smallest_share = 0;
   }
   classes[7] = 9;
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 9);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 9);
   regions.class_count = 7;
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_SIZE, &error, no);
   regions.classes = NULL;
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
   regions.class_count = 0;
   regions.tolerance = -1;
-  refused(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_segment_regions(&faces, &points, &regions, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   CHECK(null == NULL);
   free(heights.data);
 }
@@ -590,26 +590,26 @@ static void refused_sums(const struct mesh *mesh) {
   none.count = 7;
   fewer.offsets = offsets;
   fewer.face_count = 5;
-  refused(umb_segmentation_areas(NULL, &faces, &points, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_areas(made, NULL, &points, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_areas(made, &faces, NULL, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_areas(made, &faces, &points, NULL, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_areas(made, &faces, &points, sums, 5, &error), UMB_ERROR_SIZE, &error, no);
-  refused(umb_segmentation_areas(made, &fewer, &points, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
-  refused(umb_segmentation_areas(made, &faces, &none, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
-  refused(umb_segmentation_means(NULL, &faces, &points, &field, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_means(made, &faces, &points, NULL, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_means(made, &faces, &points, &field, NULL, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_segmentation_means(made, &faces, &points, &field, sums, 7, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segmentation_areas(NULL, &faces, &points, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_areas(made, NULL, &points, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_areas(made, &faces, NULL, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_areas(made, &faces, &points, NULL, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_areas(made, &faces, &points, sums, 5, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segmentation_areas(made, &fewer, &points, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segmentation_areas(made, &faces, &none, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segmentation_means(NULL, &faces, &points, &field, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_means(made, &faces, &points, NULL, sums, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_means(made, &faces, &points, &field, NULL, 6, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_segmentation_means(made, &faces, &points, &field, sums, 7, &error), UMB_ERROR_SIZE, &error, no);
   field.location = UMB_AT_VERTICES;
-  refused(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_SIZE, &error, no);
   field.location = 2;
-  refused(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
+  fails(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 2);
   field.location = UMB_AT_FACES;
   numbers[3] = (double)NAN;
-  refused(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_NON_FINITE, &error, 3);
+  fails(umb_segmentation_means(made, &faces, &points, &field, sums, 6, &error), UMB_ERROR_NON_FINITE, &error, 3);
   mesh->positions[3 * 5] = (double)NAN;
-  refused(umb_segmentation_areas(made, &faces, &points, sums, 6, &error), UMB_ERROR_NON_FINITE, &error, 5);
+  fails(umb_segmentation_areas(made, &faces, &points, sums, 6, &error), UMB_ERROR_NON_FINITE, &error, 5);
   mesh->positions[3 * 5] = 1;
   for (size_t i = 0; i < 6; i++) CHECK(sums[i] == -1);
   CHECK(umb_segmentation_count(NULL) == 0 && umb_segmentation_face_count(NULL) == 0);
@@ -632,48 +632,48 @@ static void refused_lists(const struct mesh *mesh) {
   size_t count = SIZE_MAX;
   normals.weight = UMB_WEIGHT_AREA;
   curvature.method = UMB_CURVATURE_TAUBIN;
-  refused(umb_affected_normals(NULL, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_affected_normals(topology, NULL, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_affected_normals(topology, &moved, &normals, NULL, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_affected_normals(topology, &moved, &normals, list, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_affected_curvatures(NULL, &moved, &curvature, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_affected_curvatures(topology, NULL, &curvature, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(NULL, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(topology, NULL, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, NULL, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_curvatures(NULL, &moved, &curvature, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_curvatures(topology, NULL, &curvature, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
   moved.vertex_count = 3;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
   moved.vertices = vertices;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 2);
-  refused(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 2);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 2);
+  fails(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 2);
   moved.vertices = (const uint32_t *)(const void *)((const unsigned char *)vertices + 1);
   moved.vertex_count = 1;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_MISALIGNED, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_MISALIGNED, &error, no);
   moved.vertices = vertices;
   moved.vertex_count = SIZE_MAX;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_SIZE, &error, no);
   moved.vertex_count = 2;
   moved.status_count = 8;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_NULL_POINTER, &error, no);
   moved.status = status;
   moved.status_count = 7;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_SIZE, &error, no);
   moved.status_count = 8;
   moved.reserved = 1;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
   moved.reserved = 0;
   moved.struct_size = 39;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_STRUCT_SIZE, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_STRUCT_SIZE, &error, no);
   moved.struct_size = (uint32_t)sizeof moved;
   normals.weight = 99;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
   normals.weight = UMB_WEIGHT_JET;
   normals.degree = 9;
-  refused(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_affected_normals(topology, &moved, &normals, list, &count, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   curvature.method = 99;
-  refused(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
+  fails(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_UNKNOWN_CONSTANT, &error, 99);
   curvature.method = UMB_CURVATURE_ADAPTIVE_JET;
-  refused(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
   curvature.method = UMB_CURVATURE_NORMAL_CYCLE;
   curvature.radius = 1;
-  refused(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_affected_curvatures(topology, &moved, &curvature, list, &count, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
   for (size_t i = 0; i < 8; i++) CHECK(list[i] == 77);
   CHECK(count == SIZE_MAX);
   /* Nothing has moved. */
