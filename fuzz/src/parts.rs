@@ -14,7 +14,7 @@ pub struct List<T> {
     /// Keeps the memory.
     _block: Block,
     /// What there is.
-    pub values: Vec<T>,
+    values: Vec<T>,
     pub data: *const T,
     /// The number of elements that the call is told.
     pub count: usize,
@@ -39,6 +39,11 @@ impl<T: Copy> List<T> {
             }
         }
         List { _block: block, values, data, count }
+    }
+
+    /// What a call that succeeded has read.
+    pub fn seen(&self) -> &[T] {
+        if self.data.is_null() { &[] } else { &self.values }
     }
 }
 
@@ -102,12 +107,12 @@ impl Creases {
 
     /// Marked edges, the lower vertex first.
     pub fn edges(&self) -> Vec<[u32; 2]> {
-        let list = self.edges.as_ref().map_or(&[][..], |edges| &edges.values);
+        let list = self.edges.as_ref().map_or(&[][..], List::seen);
         list.chunks_exact(2).map(|ends| [ends[0].min(ends[1]), ends[0].max(ends[1])]).collect()
     }
 
     pub fn groups(&self) -> Option<&[u32]> {
-        self.groups.as_ref().map(|groups| &groups.values[..])
+        self.groups.as_ref().filter(|groups| !groups.data.is_null()).map(List::seen)
     }
 }
 

@@ -85,7 +85,7 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
     let (list, rest) = block.bytes().split_at(4 * found);
     assert!(rest.iter().all(|&byte| byte == umbilic_fuzz::block::CANARY), "more is written than there is");
     let list: Vec<u32> = list.chunks_exact(4).map(|bytes| u32::from_ne_bytes(bytes.try_into().unwrap())).collect();
-    check_list(&list, if length > 0 { &moved.values } else { &[] }, count);
+    check_list(&list, if length > 0 { moved.seen() } else { &[] }, count);
 }
 
 fn check_list(list: &[u32], moved: &[u32], count: usize) {

@@ -84,7 +84,10 @@ pub fn classes(source: &mut Source<'_>, scene: &Scene) {
     for vertex in 0..count {
         let class = found.element(vertex).expect("a class for each vertex");
         assert!(class <= UMB_SHAPE_SADDLE_VALLEY, "class {class} of vertex {vertex}");
-        let undefined = known.as_ref().is_some_and(|known| known.values[vertex] & UMB_VERTEX_DEGENERATE != 0);
+        let undefined = known
+            .as_ref()
+            .and_then(|known| known.seen().get(vertex))
+            .is_some_and(|bits| bits & UMB_VERTEX_DEGENERATE != 0);
         assert_eq!(class == UMB_SHAPE_UNDEFINED, undefined, "vertex {vertex}");
         if tolerance > 0.0 && !undefined {
             let [a, b] = [&views[0], &views[1]].map(|view| unsafe { read(view, vertex) });
