@@ -8,7 +8,7 @@ MESH ?=
 BENCH ?=
 SANITIZE ?=
 SECONDS ?= 60
-TARGETS ?= topology normals curvature polyline readers differential
+TARGETS ?= topology normals curvature segmentation polyline readers differential
 
 LIBRARY := target/release/libumbilic.so
 # Where real meshes are found or fetched to; every mesh test reads them from there.

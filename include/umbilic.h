@@ -2283,7 +2283,7 @@ umb_status umb_affected_normals(const struct umb_topology *topology,
  * @param count receives the number of vertices in the list
  * @param error may be null
  *
- * Errors: as `umb_affected_normals`.
+ * Errors: as `umb_affected_normals`; `_STRIDE` for given normals.
  * @since 0.1.0
  */
 UMB_API
@@ -2481,8 +2481,8 @@ const uint32_t *umb_segmentation_boundary_edges(const struct umb_segmentation *s
  * @param count the number of segments
  * @param error may be null
  *
- * Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_INDEX_OUT_OF_RANGE`,
- * `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`.
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_OFFSETS`,
+ * `_INDEX_OUT_OF_RANGE`, `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`.
  * @since 0.1.0
  */
 UMB_API

@@ -30,24 +30,42 @@ impl Default for Run<'_> {
 
 impl Run<'_> {
     /// Has `work` done by a run like this one whose progress is the part from `from` to `to` of this one's.
-    pub(crate) fn part<T>(&mut self, from: f64, to: f64, work: impl FnOnce(Run<'_>) -> T) -> T {
+    ///
+    /// # Errors
+    /// Those of `work`; [`Error::Cancelled`] also if the caller cancels at the end of a part that others follow.
+    pub(crate) fn part<T>(
+        &mut self,
+        from: f64,
+        to: f64,
+        work: impl FnOnce(Run<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         self.part_for(self.vertices, from, to, work)
     }
 
     /// As [`Run::part`], for other vertices.
+    ///
+    /// # Errors
+    /// As [`Run::part`].
     pub(crate) fn part_for<T>(
         &mut self,
         vertices: Option<&[u32]>,
         from: f64,
         to: f64,
-        work: impl FnOnce(Run<'_>) -> T,
-    ) -> T {
+        work: impl FnOnce(Run<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let Run { threads, level, .. } = *self;
         let Some(whole) = &mut self.progress else {
             return work(Run { threads, level, vertices, progress: None });
         };
-        let mut part = |fraction: f64| whole(from + (to - from) * fraction);
-        work(Run { threads, level, vertices, progress: Some(&mut part) })
+        let mut cancelled = false;
+        let mut part = |fraction: f64| {
+            let goes_on = whole(from + (to - from) * fraction);
+            cancelled |= !goes_on;
+            goes_on
+        };
+        let done = work(Run { threads, level, vertices, progress: Some(&mut part) })?;
+        // What came too late for the part is in time for the next one.
+        if cancelled && to < 1.0 { Err(Error::Cancelled) } else { Ok(done) }
     }
 }
 
@@ -150,4 +168,32 @@ pub(crate) fn fill<T: Send>(threads: usize, elements: &mut [T], value: impl Fn(u
             *element = value(index * length + place);
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two parts of three chunks each; which call of the callback cancels, once.
+    fn in_parts(cancels: usize) -> (Result<(), Error>, usize) {
+        let mut calls = 0;
+        let mut progress = |_: f64| {
+            calls += 1;
+            calls != cancels
+        };
+        let mut run = Run { threads: 1, progress: Some(&mut progress), ..Run::default() };
+        let work = |mut run: Run<'_>| for_each_chunk(&mut run, 3, |claims| while claims.next().is_some() {});
+        let done = run.part(0.0, 0.5, work).and_then(|()| run.part(0.5, 1.0, work));
+        (done, calls)
+    }
+
+    #[test]
+    fn whoever_cancels_once_is_heard_until_all_is_done() {
+        let (done, calls) = in_parts(usize::MAX);
+        assert_eq!(done, Ok(()));
+        for cancels in 1..calls {
+            assert_eq!(in_parts(cancels), (Err(Error::Cancelled), cancels));
+        }
+        assert_eq!(in_parts(calls), (Ok(()), calls));
+    }
 }

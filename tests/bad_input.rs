@@ -221,6 +221,44 @@ fn faces_that_cannot_be_right_are_refused() {
     let status = unsafe { umb_topology_create(&faces, huge, std::ptr::null(), &mut handle, &mut error) };
     assert_eq!(status, UMB_ERROR_TOO_LARGE);
     assert!(handle.is_null());
+    // More corners than any mesh has are refused before one is read.
+    let many = umb_faces { index_count: 3 << 30, face_count: 0, ..faces };
+    let (mut cut, mut segmentation, points) =
+        (std::ptr::null_mut(), std::ptr::null_mut(), points(&triangles.positions));
+    unsafe {
+        let none = std::ptr::null();
+        assert_eq!(umb_topology_create(&many, 26, none, &mut handle, &mut error), UMB_ERROR_TOO_LARGE);
+        let status = umb_cut_create(&many, &points, std::ptr::null(), none, &mut cut, &mut error);
+        assert_eq!(status, UMB_ERROR_TOO_LARGE);
+        let none = std::ptr::null();
+        let status = umb_segment_features(&many, &points, none, &mut segmentation, &mut error);
+        assert_eq!(status, UMB_ERROR_TOO_LARGE);
+    }
+    assert!(handle.is_null() && cut.is_null() && segmentation.is_null());
+}
+
+#[test]
+fn scalars_are_at_vertices_or_faces() {
+    let (curvatures, mut classes) = ([1.0f64; 3], [9u8; 3]);
+    let sound = umb_scalars {
+        data: curvatures.as_ptr().cast(),
+        count: 3,
+        stride: 0,
+        scalar: UMB_SCALAR_F64,
+        location: UMB_AT_FACES,
+    };
+    let mut options: umb_shape_options = zeroed();
+    options.tolerance = 0.5;
+    let to = umb_status_output { data: classes.as_mut_ptr(), stride: 0 };
+    let mut error: umb_error = zeroed();
+    let mut classify = |k1: umb_scalars, k2: umb_scalars| {
+        let status = unsafe { umb_shape_classes(std::ptr::null(), &k1, &k2, &options, &to, &mut error) };
+        (status, error.element)
+    };
+    assert_eq!(classify(sound, sound).0, UMB_OK);
+    assert_eq!(classify(umb_scalars { location: 2, ..sound }, sound), (UMB_ERROR_UNKNOWN_CONSTANT, 2));
+    assert_eq!(classify(sound, umb_scalars { location: u32::MAX, ..sound }).0, UMB_ERROR_UNKNOWN_CONSTANT);
+    assert_eq!(classes, [UMB_SHAPE_PEAK; 3]);
 }
 
 #[test]

@@ -28,7 +28,8 @@ fn main() -> std::io::Result<()> {
     let folder = Path::new(&folder);
     let mut random = Random(1);
     // Where the kind of mesh stands, and how many bytes before it have so many values.
-    for (target, before) in [("topology", 1), ("normals", 2), ("curvature", 1), ("differential", 2), ("polyline", 1)]
+    for (target, before) in
+        [("topology", 1), ("normals", 2), ("curvature", 1), ("segmentation", 1), ("differential", 2), ("polyline", 1)]
     {
         let mut seeds = vec![vec![]];
         for hostile in [0, 1] {

@@ -5,8 +5,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use umbilic::capi::*;
-use umbilic_fuzz::coordinates::rows;
-use umbilic_fuzz::curvature::{Outputs, method};
+use umbilic_fuzz::curvature::{Asked, Outputs, given, vectors};
 use umbilic_fuzz::weights::{model, small, weight};
 use umbilic_fuzz::{Bytes, Handle, Input, Outcome, Placed, Run, Scene, Source, Struct, Target, Watch, zeroed};
 
@@ -56,55 +55,16 @@ fn pointer<T: Copy>(placed: &Option<Placed<T>>) -> *const T {
     placed.as_ref().map_or(std::ptr::null(), |placed| placed.pointer().cast_const())
 }
 
-/// Vertex normals or directions of the caller's; none for `count` 0.
-fn vectors(source: &mut Source<'_>, count: usize, double: bool) -> Input {
-    let natural: Vec<[f64; 3]> = (0..count).map(|index| [0.1 * index as f64, 0.2, 1.0]).collect();
-    let rows = rows(source, &natural, count, double);
-    Input::new(source, &rows, 3, double)
-}
-
-/// Normals that are given a third of the time.
-fn given(source: &mut Source<'_>, scene: &Scene) -> Option<Input> {
-    let wanted = source.byte() % 3 == 2;
-    wanted.then(|| {
-        let double = if source.rarely() { !scene.double } else { scene.double };
-        vectors(source, scene.vertex_count, double)
-    })
-}
-
 fn curvatures(source: &mut Source<'_>, scene: &Scene, handle: &Handle) {
     let count = handle.vertex_count;
     let watch = Watch::new(source);
     let run = Run::new(source, &watch, Some(count));
-    let (model, normals) = (model(source), given(source, scene));
-    let mut options: umb_curvature_options = zeroed();
-    options.method = method(source);
-    options.section = if source.spoils() { source.any_u32() } else { source.below(4) as u32 };
-    options.weight = weight(source);
-    let tame = !source.is_hostile() || source.half();
-    let measure = matches!(options.method, UMB_CURVATURE_NORMAL_CYCLE | UMB_CURVATURE_CORRECTED_MEASURE);
-    let fit = options.method <= UMB_CURVATURE_GOLDFEATHER;
-    if options.method == UMB_CURVATURE_JET || !tame {
-        options.degree = source.pick(&[0, 2, 3, 4]);
-    }
-    if measure && source.half() || !tame {
-        options.radius = match source.byte() {
-            byte @ 0..240 => byte as f64 / 32.0,
-            _ if source.is_hostile() => f64::from_bits(source.number()),
-            byte => 2f64.powi(byte as i32 * 8 - 1950),
-        };
-    }
-    if measure && options.radius == 0.0 || fit || !tame {
-        let most = if source.rarely() { 8 } else { 3 };
-        options.rings = small(source, most);
-    }
-    (options.normal_degree, options.normal_rings) = (small(source, 4), small(source, 3));
-    options.model = model.pointer();
-    options.normals = normals.as_ref().map_or(zeroed(), Input::points);
+    let asked = Asked::new(source, count, scene.double);
+    let mut options = asked.view;
     options.run = run.view;
-    let (asked, radius) = (options.method, options.radius);
+    let (method, radius) = (options.method, options.radius);
     let options = Struct::new(source, &mut options, false);
-    let outputs = Outputs::new(source, asked, count, scene.double);
+    let outputs = Outputs::new(source, method, count, scene.double);
     let mut view = outputs.view();
     if source.spoils() {
         view.reserved = source.any_u32();
@@ -118,7 +78,7 @@ fn curvatures(source: &mut Source<'_>, scene: &Scene, handle: &Handle) {
     if !outcome.check("umb_curvatures", status, &ALLOWED) {
         assert!(outputs.are_untouched() || status == UMB_ERROR_CANCELLED, "outputs are written on status {status}");
         let refused = !source.is_hostile() && status != UMB_ERROR_CANCELLED;
-        assert!(!refused, "method {asked} with radius {radius} refuses sound input: {status}");
+        assert!(!refused, "method {method} with radius {radius} refuses sound input: {status}");
     }
     outputs.check_gaps(|vertex| run.asks_for(vertex));
     if status == UMB_OK {
@@ -132,7 +92,7 @@ fn sections(source: &mut Source<'_>, scene: &Scene, handle: &Handle, directions:
     let vertex_count = handle.vertex_count;
     let watch = Watch::new(source);
     let run = Run::new(source, &watch, Some(vertex_count));
-    let (model, normals) = (model(source), given(source, scene));
+    let (model, normals) = (model(source), given(source, scene.vertex_count, scene.double));
     let mut options: umb_section_options = zeroed();
     options.section = if source.spoils() { source.any_u32() } else { source.below(4) as u32 };
     options.weight = weight(source);

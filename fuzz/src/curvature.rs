@@ -3,8 +3,11 @@
 #[path = "../../tests/common/outputs.rs"]
 mod outputs;
 
-use crate::arrays::{Bytes, Target};
+use crate::arrays::{Bytes, Input, Target};
+use crate::coordinates::rows;
 use crate::source::Source;
+use crate::structs::{Struct, zeroed};
+use crate::weights::{model, small, weight};
 use outputs::{OUTPUTS, Out, Out::*};
 use umbilic::capi::*;
 
@@ -24,6 +27,61 @@ pub fn method(source: &mut Source<'_>) -> umb_curvature_method {
 
 fn source_method(byte: u8) -> umb_curvature_method {
     UMB_CURVATURE_TILTED_SECTIONS + byte as u32 % 9
+}
+
+/// Vertex normals or directions of the caller's; none for `count` 0.
+pub fn vectors(source: &mut Source<'_>, count: usize, double: bool) -> Input {
+    let natural: Vec<[f64; 3]> = (0..count).map(|index| [0.1 * index as f64, 0.2, 1.0]).collect();
+    let rows = rows(source, &natural, count, double);
+    Input::new(source, &rows, 3, double)
+}
+
+/// Normals that are given a third of the time, mostly in the precision of the positions.
+pub fn given(source: &mut Source<'_>, count: usize, double: bool) -> Option<Input> {
+    let wanted = source.byte() % 3 == 2;
+    wanted.then(|| {
+        let double = if source.rarely() { !double } else { double };
+        vectors(source, count, double)
+    })
+}
+
+/// What curvatures are asked for, but how to run.
+pub struct Asked {
+    _model: Struct<umb_adaptive_model>,
+    _normals: Option<Input>,
+    pub view: umb_curvature_options,
+}
+
+impl Asked {
+    /// For so many vertices, whose positions are in double precision or not.
+    pub fn new(source: &mut Source<'_>, count: usize, double: bool) -> Asked {
+        let (model, normals) = (model(source), given(source, count, double));
+        let mut options: umb_curvature_options = zeroed();
+        options.method = method(source);
+        options.section = if source.spoils() { source.any_u32() } else { source.below(4) as u32 };
+        options.weight = weight(source);
+        let tame = !source.is_hostile() || source.half();
+        let measure = matches!(options.method, UMB_CURVATURE_NORMAL_CYCLE | UMB_CURVATURE_CORRECTED_MEASURE);
+        let fit = options.method <= UMB_CURVATURE_GOLDFEATHER;
+        if options.method == UMB_CURVATURE_JET || !tame {
+            options.degree = source.pick(&[0, 2, 3, 4]);
+        }
+        if measure && source.half() || !tame {
+            options.radius = match source.byte() {
+                byte @ 0..240 => byte as f64 / 32.0,
+                _ if source.is_hostile() => f64::from_bits(source.number()),
+                byte => 2f64.powi(byte as i32 * 8 - 1950),
+            };
+        }
+        if measure && options.radius == 0.0 || fit || !tame {
+            let most = if source.rarely() { 8 } else { 3 };
+            options.rings = small(source, most);
+        }
+        (options.normal_degree, options.normal_rings) = (small(source, 4), small(source, 3));
+        options.model = model.pointer();
+        options.normals = normals.as_ref().map_or(zeroed(), Input::points);
+        Asked { _model: model, _normals: normals, view: options }
+    }
 }
 
 /// Few outputs more often than many.

@@ -72,6 +72,27 @@ impl FaceArrays {
         let count = if offsets.is_null() { index_count / arity } else { face_count };
         if count < 1 << 16 { count } else { 1 }
     }
+
+    /// As [`FaceArrays::face_count`], the number of corners.
+    pub fn corner_count(&self) -> usize {
+        if self.view.index_count < 1 << 16 { self.view.index_count } else { 1 }
+    }
+
+    /// Where each face starts and the end of the last, and the corners of all, as a call that succeeded has read them.
+    pub fn read(&self) -> (Vec<u32>, Vec<u32>) {
+        let umb_faces { indices, index_count, offsets, index, arity, .. } = self.view;
+        let wide = index == UMB_INDEX_U64;
+        // SAFETY: the call has read as many from there, and that they are in range.
+        let at = |array: *const libc::c_void, place: usize| unsafe {
+            if wide { *array.cast::<u64>().add(place) as u32 } else { *array.cast::<u32>().add(place) }
+        };
+        let count = self.face_count();
+        let starts = match offsets.is_null() {
+            true => (0..=count).map(|face| (face * if arity == 0 { 3 } else { arity as usize }) as u32).collect(),
+            false => (0..=count).map(|face| at(offsets, face)).collect(),
+        };
+        (starts, (0..index_count).map(|corner| at(indices, corner)).collect())
+    }
 }
 
 /// `count` integers, the first of them those of `values`, and where they start.

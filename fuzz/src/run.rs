@@ -9,23 +9,30 @@ use umbilic::capi::*;
 /// What a progress callback sees, and when it cancels.
 pub struct Watch {
     cancel_at: Option<u32>,
+    /// Whether it cancels in that call only.
+    once: bool,
     calls: Cell<u32>,
     cancelled: Cell<bool>,
+    /// Before all was done, so that the call may not succeed.
+    in_time: Cell<bool>,
     thread: ThreadId,
 }
 
 impl Watch {
     pub fn new(source: &mut Source<'_>) -> Watch {
         let cancel_at = source.rarely().then(|| source.below(6) as u32);
-        Watch { cancel_at, calls: Cell::new(0), cancelled: Cell::new(false), thread: std::thread::current().id() }
+        let once = cancel_at.is_some() && source.half();
+        let (calls, cancelled, in_time) = (Cell::new(0), Cell::new(false), Cell::new(false));
+        Watch { cancel_at, once, calls, cancelled, in_time, thread: std::thread::current().id() }
     }
 
     pub fn has_cancelled(&self) -> bool {
         self.cancelled.get()
     }
 
-    /// Checks that a call was cancelled only if the callback asked for it.
+    /// Checks that a call was cancelled if, and only if, the callback asked for it in time.
     pub fn check(&self, status: umb_status) {
+        assert!(status != UMB_OK || !self.in_time.get(), "a call goes on that was cancelled");
         assert!(status != UMB_ERROR_CANCELLED || self.has_cancelled(), "cancelled by nobody");
     }
 }
@@ -36,7 +43,8 @@ unsafe extern "C" fn progress(user: *mut libc::c_void, fraction: f64) -> libc::c
     assert_eq!(std::thread::current().id(), watch.thread, "progress on another thread");
     assert!((0.0..=1.0).contains(&fraction), "progress {fraction}");
     let call = watch.calls.replace(watch.calls.get() + 1);
-    let cancel = watch.cancel_at.is_some_and(|at| call >= at);
+    let cancel = watch.cancel_at.is_some_and(|at| if watch.once { call == at } else { call >= at });
+    watch.in_time.set(watch.in_time.get() || cancel && fraction < 1.0);
     watch.cancelled.set(watch.cancelled.get() || cancel);
     if cancel { 1 + call as libc::c_int } else { 0 }
 }

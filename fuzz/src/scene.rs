@@ -9,6 +9,9 @@ use umbilic::capi::*;
 
 /// Faces and positions as a call reads them.
 pub struct Scene {
+    /// What was meant; a hostile input may say something else.
+    pub shape: Shape,
+    pub rows: Vec<[f64; 3]>,
     pub faces: FaceArrays,
     pub vertex_count: usize,
     pub points: Input,
@@ -23,7 +26,7 @@ impl Scene {
         let rows = rows(source, &shape.positions, shape.vertex_count, double);
         let faces = FaceArrays::new(source, &shape, too_many);
         let points = Input::new(source, &rows, 3, double);
-        Scene { faces, vertex_count: shape.vertex_count, points, double }
+        Scene { vertex_count: shape.vertex_count, shape, rows, faces, points, double }
     }
 
     /// A topology of the faces; none if they are refused.

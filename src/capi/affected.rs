@@ -83,7 +83,7 @@ pub unsafe extern "C" fn umb_affected_normals(
 /// @param count receives the number of vertices in the list
 /// @param error may be null
 ///
-/// Errors: as `umb_affected_normals`.
+/// Errors: as `umb_affected_normals`; `_STRIDE` for given normals.
 /// @since 0.1.0
 #[unsafe(no_mangle)]
 #[must_use]

@@ -296,8 +296,8 @@ pub unsafe extern "C" fn umb_segmentation_boundary_edges(segmentation: *const um
 /// @param count the number of segments
 /// @param error may be null
 ///
-/// Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_INDEX_OUT_OF_RANGE`,
-/// `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`.
+/// Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_OFFSETS`,
+/// `_INDEX_OUT_OF_RANGE`, `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`.
 /// @since 0.1.0
 #[unsafe(no_mangle)]
 #[must_use]

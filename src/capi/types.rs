@@ -214,12 +214,8 @@ impl umb_scalars {
     /// The fields describe memory that stays readable and unchanged for `'a`.
     pub(super) unsafe fn view<'a>(&self) -> Result<Scalars<'a>, Error> {
         // SAFETY: handed on.
-        unsafe {
-            match self.scalar {
-                UMB_SCALAR_F32 => Scalars::from_raw_f32(self.data.cast(), self.count, self.stride),
-                UMB_SCALAR_F64 => Scalars::from_raw_f64(self.data.cast(), self.count, self.stride),
-                value => Err(Error::UnknownConstant { what: "scalars.scalar", value: value as u64 }),
-            }
+        match unsafe { self.field() }? {
+            ScalarField::Vertices(scalars) | ScalarField::Faces(scalars) => Ok(scalars),
         }
     }
 
@@ -229,7 +225,13 @@ impl umb_scalars {
     /// As [`umb_scalars::view`].
     pub(super) unsafe fn field<'a>(&self) -> Result<ScalarField<'a>, Error> {
         // SAFETY: handed on.
-        let scalars = unsafe { self.view() }?;
+        let scalars = unsafe {
+            match self.scalar {
+                UMB_SCALAR_F32 => Scalars::from_raw_f32(self.data.cast(), self.count, self.stride),
+                UMB_SCALAR_F64 => Scalars::from_raw_f64(self.data.cast(), self.count, self.stride),
+                value => Err(Error::UnknownConstant { what: "scalars.scalar", value: value as u64 }),
+            }
+        }?;
         match self.location {
             UMB_AT_VERTICES => Ok(ScalarField::Vertices(scalars)),
             UMB_AT_FACES => Ok(ScalarField::Faces(scalars)),

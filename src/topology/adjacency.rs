@@ -22,7 +22,6 @@ impl Adjacency {
     /// # Errors
     /// [`Error::IndexOutOfRange`]; [`Error::TooLarge`] beyond 2³¹ − 1 corners; [`Error::OutOfMemory`].
     pub fn new(faces: &Faces<'_>, vertex_count: usize) -> Result<Self, Error> {
-        faces.indices().check_range("faces.indices", vertex_count)?;
         let limit = u32::MAX as u64 / 2;
         for (what, found) in [("corners", faces.indices().len()), ("vertices", vertex_count), ("faces", faces.len())]
         {
@@ -30,6 +29,7 @@ impl Adjacency {
                 return Err(Error::TooLarge { what, found: found as u64, limit });
             }
         }
+        faces.indices().check_range("faces.indices", vertex_count)?;
         with_indices!(faces.indices(), indices => Self::build(faces, indices, vertex_count))
     }
 

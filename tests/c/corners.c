@@ -87,20 +87,6 @@ static void curvatures(const struct mesh *mesh) {
   umb_cut_destroy(cut);
 }
 
-/* The unit cube, of quads. */
-static struct mesh cube(void) {
-  static const uint32_t corners[24] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
-  struct mesh mesh = mesh_of(8, 6, 24, 1);
-  for (uint32_t v = 0; v < 8; v++) mesh_place(&mesh, v, v & 1, v >> 1 & 1, v >> 2);
-  memcpy(mesh.indices, corners, sizeof corners);
-  for (uint32_t f = 0; f <= 6; f++) mesh.offsets[f] = 4 * f;
-  return mesh;
-}
-
-static void refused(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
-  CHECK(found == expected && error->status == expected && error->element == element && error->message[0] != '\0');
-}
-
 static void refusals(const struct mesh *mesh) {
   umb_error error = UMB_ERROR_INIT;
   umb_faces faces = faces_of(mesh);
@@ -114,51 +100,51 @@ static void refusals(const struct mesh *mesh) {
   umb_normal_options options = UMB_NORMAL_OPTIONS_INIT;
   const uint64_t no = UMB_NO_ELEMENT;
   nothing.data = NULL;
-  refused(umb_cut_create(NULL, &points, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_cut_create(&faces, NULL, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_cut_create(&faces, &points, NULL, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_create(NULL, &points, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_create(&faces, NULL, NULL, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_create(&faces, &points, NULL, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
   creases.reserved = 1;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_UNKNOWN_FIELD, &error, 4);
   creases.reserved = 0;
   creases.angle = -1;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   creases.angle = (double)NAN;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_OPTION_OUT_OF_RANGE, &error, no);
   creases.angle = 0;
   creases.edge_count = 2;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_NULL_POINTER, &error, no);
   creases.edges = edges;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 3);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 3);
   creases.edge_count = SIZE_MAX;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
   creases.edge_count = 1;
   creases.groups = groups;
   creases.group_count = 5;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
   creases.group_count = 0;
-  refused(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_cut_create(&faces, &points, &creases, NULL, &null, &error), UMB_ERROR_SIZE, &error, no);
   none.count = 7;
-  refused(umb_cut_create(&faces, &none, NULL, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 6);
+  fails(umb_cut_create(&faces, &none, NULL, NULL, &null, &error), UMB_ERROR_INDEX_OUT_OF_RANGE, &error, 6);
   CHECK(null == NULL);
 
-  refused(umb_cut_points(NULL, &points, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_cut_points(cut, &none, &output, &error), UMB_ERROR_SIZE, &error, no);
-  refused(umb_cut_points(cut, &points, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_cut_points(cut, &points, &nothing, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_corner_normals(NULL, &points, NULL, &outputs, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_corner_normals(cut, &points, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_corner_normals(cut, &none, NULL, &outputs, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_cut_points(NULL, &points, &output, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_points(cut, &none, &output, &error), UMB_ERROR_SIZE, &error, no);
+  fails(umb_cut_points(cut, &points, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_cut_points(cut, &points, &nothing, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_corner_normals(NULL, &points, NULL, &outputs, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_corner_normals(cut, &points, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_corner_normals(cut, &none, NULL, &outputs, &error), UMB_ERROR_SIZE, &error, no);
   outputs.corner = output;
   options.run.vertices = edges;
   options.run.vertex_count = 3;
-  refused(umb_corner_normals(cut, &points, &options, &outputs, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
-  refused(umb_corner_normals_from_faces(&faces, &points, NULL, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
-  refused(umb_corner_normals_from_faces(&faces, &points, NULL, &options, &output, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_corner_normals(cut, &points, &options, &outputs, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
+  fails(umb_corner_normals_from_faces(&faces, &points, NULL, NULL, NULL, &error), UMB_ERROR_NULL_POINTER, &error, no);
+  fails(umb_corner_normals_from_faces(&faces, &points, NULL, &options, &output, &error), UMB_ERROR_NOT_APPLICABLE, &error, no);
   options.run.vertices = NULL;
   options.run.vertex_count = 0;
   mesh->positions[3 * 5] = (double)NAN;
-  refused(umb_cut_create(&faces, &points, NULL, NULL, &null, &error), UMB_ERROR_NON_FINITE, &error, 5);
-  refused(umb_corner_normals(cut, &points, NULL, &outputs, &error), UMB_ERROR_NON_FINITE, &error, 5);
+  fails(umb_cut_create(&faces, &points, NULL, NULL, &null, &error), UMB_ERROR_NON_FINITE, &error, 5);
+  fails(umb_corner_normals(cut, &points, NULL, &outputs, &error), UMB_ERROR_NON_FINITE, &error, 5);
   for (size_t i = 0; i < corners.bytes; i++) CHECK(corners.data[i] == 0x5a);
 
   CHECK(umb_cut_topology(NULL) == NULL && umb_cut_corners(NULL) == NULL && umb_cut_origins(NULL) == NULL);

@@ -96,6 +96,16 @@ static inline struct mesh torus(uint32_t around, uint32_t across) {
   return mesh;
 }
 
+/* The unit cube, of quads. */
+static inline struct mesh cube(void) {
+  static const uint32_t corners[24] = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+  struct mesh mesh = mesh_of(8, 6, 24, 1);
+  for (uint32_t v = 0; v < 8; v++) mesh_place(&mesh, v, v & 1, v >> 1 & 1, v >> 2);
+  memcpy(mesh.indices, corners, sizeof corners);
+  for (uint32_t f = 0; f <= 6; f++) mesh.offsets[f] = 4 * f;
+  return mesh;
+}
+
 /* What real files hold: an open sheet with a fin on an inner edge, a face twice, one that repeats a corner, one of a
    single point, and a vertex that nothing uses. */
 static inline struct mesh broken(void) {
@@ -148,6 +158,15 @@ static inline umb_topology *topology_of(const struct mesh *mesh, uint32_t thread
   options.threads = threads;
   SUCCEEDS(umb_topology_create(&faces, mesh->vertex_count, &options, &topology, &error));
   return topology;
+}
+
+/* A call that must fail like this, and say so. */
+static inline void fails(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
+  if (found != expected || error->status != expected || error->element != element || error->message[0] == '\0') {
+    fprintf(stderr, "status %d instead of %d, element %llu: %s\n", (int)found, (int)expected,
+            (unsigned long long)error->element, error->message);
+    exit(EXIT_FAILURE);
+  }
 }
 
 /* An array for a call to write: `components` scalars for each of `count` elements, `gap` scalars between elements and

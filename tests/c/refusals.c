@@ -18,11 +18,7 @@ static umb_normal_outputs outputs(void) {
 
 /* The call failed like this, said so in the error, and wrote nothing. */
 static void refused(umb_status found, umb_status expected, const umb_error *error, uint64_t element) {
-  if (found != expected || error->status != expected || error->element != element || error->message[0] == '\0') {
-    fprintf(stderr, "status %d instead of %d, element %llu: %s\n", (int)found, (int)expected,
-            (unsigned long long)error->element, error->message);
-    exit(EXIT_FAILURE);
-  }
+  fails(found, expected, error, element);
   for (size_t i = 0; i < normals.bytes; i++) CHECK(normals.data[i] == 0x5a);
 }
 

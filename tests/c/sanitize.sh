@@ -31,7 +31,7 @@ instrument() {
 # compile FLAGS LINK: all programs with $library.
 # shellcheck disable=SC2086 # lists of words, here and below
 compile() {
-  for program in normals corners curvatures refusals threads early_late old_header planted; do
+  for program in normals corners segments curvatures refusals threads early_late old_header planted; do
     "${CC:-cc}" -std=c11 $flags $1 -c $here/$program.c -o "$built/$program.o"
     "${CC:-cc}" "$built/$program.o" $library $2 -o "$built/bin/$program" $system
   done
@@ -56,7 +56,7 @@ catches() {
 # clean COMMAND...: under it every program runs, and nothing is found.
 clean() {
   "$@" "$built/bin/planted" none
-  for program in normals corners curvatures refusals early_late old_header host; do "$@" "$built/bin/$program"; done
+  for program in normals corners segments curvatures refusals early_late old_header host; do "$@" "$built/bin/$program"; done
   "$@" "$built/bin/threads" 2
 }
 

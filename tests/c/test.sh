@@ -25,14 +25,14 @@ for compilers in "${CC:-cc} ${CXX:-c++}" "clang clang++"; do
   "$c" -std=c99 $strict -Iinclude $here/header.c -o $built/header $static
   $built/header
 
-  for program in normals corners curvatures refusals threads early_late old_header reload; do
+  for program in normals corners segments curvatures refusals threads early_late old_header reload; do
     "$c" -std=c11 -O1 $strict -Iinclude $here/$program.c -o $built/$program $shared
   done
   "$cpp" -std=c++11 -O1 $strict -Iinclude $here/host.cpp -o $built/host $shared
   "$c" -std=c11 -O1 $strict -Iinclude $here/two_copies.c -o $built/two_copies $static
   # The same with the program's symbols in sight of the libraries that it opens: these must use their own all the same.
   "$c" -std=c11 -O1 $strict -Iinclude -rdynamic $here/two_copies.c -o $built/two_copies_in_sight $static
-  for program in normals corners curvatures refusals threads early_late old_header host; do $built/$program; done
+  for program in normals corners segments curvatures refusals threads early_late old_header host; do $built/$program; done
 done
 
 # A copy under another name, and a plugin of a host's own that the static library is linked into.
