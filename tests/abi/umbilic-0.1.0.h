@@ -1,5 +1,6 @@
 /*
- * umbilic: vertex normals and curvatures of polygon meshes, and curvatures of polylines, on the caller's own memory.
+ * umbilic: vertex normals, corner normals, curvatures and segments of polygon meshes, and curvatures of polylines, on the caller's own
+ * memory.
  *
  * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed
  * from positions as often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
@@ -59,6 +60,11 @@
 #define UMB_FACE_OUTPUTS_INIT UMB_INIT_(umb_face_outputs)
 #define UMB_CREASES_INIT UMB_INIT_(umb_creases)
 #define UMB_CORNER_OUTPUTS_INIT UMB_INIT_(umb_corner_outputs)
+#define UMB_MOVED_INIT UMB_INIT_(umb_moved)
+#define UMB_SHAPE_OPTIONS_INIT UMB_INIT_(umb_shape_options)
+#define UMB_FEATURE_OPTIONS_INIT UMB_INIT_(umb_feature_options)
+#define UMB_WATERSHED_OPTIONS_INIT UMB_INIT_(umb_watershed_options)
+#define UMB_REGION_OPTIONS_INIT UMB_INIT_(umb_region_options)
 #define UMB_CURVATURE_OPTIONS_INIT UMB_INIT_(umb_curvature_options)
 #define UMB_CURVATURE_OUTPUTS_INIT UMB_INIT_(umb_curvature_outputs)
 #define UMB_SECTION_OPTIONS_INIT UMB_INIT_(umb_section_options)
@@ -143,11 +149,69 @@
 #define UMB_POLYLINE_COINCIDENT 4
 
 /**
+ * Shape class: nothing is known of the curvature.
+ */
+#define UMB_SHAPE_UNDEFINED 0
+
+/**
+ * Convex in every direction, like a ball: H > 0, K > 0.
+ */
+#define UMB_SHAPE_PEAK 1
+
+/**
+ * Convex in one direction and straight in the other, like a rod: H > 0, K = 0.
+ */
+#define UMB_SHAPE_RIDGE 2
+
+/**
+ * A saddle that is more convex than concave: H > 0, K < 0.
+ */
+#define UMB_SHAPE_SADDLE_RIDGE 3
+
+/**
+ * Not curved: H = 0, K = 0.
+ */
+#define UMB_SHAPE_FLAT 4
+
+/**
+ * A saddle as convex as it is concave, like a minimal surface: H = 0, K < 0.
+ */
+#define UMB_SHAPE_MINIMAL 5
+
+/**
+ * Concave in every direction, like a bowl: H < 0, K > 0.
+ */
+#define UMB_SHAPE_PIT 6
+
+/**
+ * Concave in one direction and straight in the other, like a gutter: H < 0, K = 0.
+ */
+#define UMB_SHAPE_VALLEY 7
+
+/**
+ * A saddle that is more concave than convex: H < 0, K < 0.
+ */
+#define UMB_SHAPE_SADDLE_VALLEY 8
+
+/**
+ * The label of faces that are ignored: those of fewer than three distinct corners in a row.
+ */
+#define UMB_NO_SEGMENT UINT32_MAX
+
+/**
  * A mesh cut open along its creases: a vertex for each run of faces around a vertex that no crease divides. Whatever is computed over
  * `umb_cut_topology` stops at creases: normals become corner normals, and fits and curvatures of one side take nothing from the
  * other. A `const umb_cut *` may be used from any number of threads at once.
  */
 typedef struct umb_cut umb_cut;
+
+/**
+ * The faces of a mesh in segments: a label for each. A `const umb_segmentation *` may be used from any number of threads at once.
+ *
+ * Labels are numbers from 0, in the order of the smallest face of each segment: they follow from which faces are together and from nothing
+ * else. A segment is connected across edges that have exactly two faces, which run through it in opposite directions.
+ */
+typedef struct umb_segmentation umb_segmentation;
 
 /**
  * The one-rings of a mesh, built once from its faces and reused while positions move. A `const umb_topology *` may be
@@ -1069,6 +1133,198 @@ typedef struct umb_corner_outputs {
 } umb_corner_outputs;
 
 /**
+ * Vertices that have moved since normals or curvatures were computed.
+ */
+typedef struct umb_moved {
+  /**
+   * `sizeof(umb_moved)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * The vertices; may repeat. May be null if there are none.
+   */
+  const uint32_t *vertices;
+  /**
+   * The number of `vertices`.
+   */
+  size_t vertex_count;
+  /**
+   * The status bytes of the results as they were, `#V`, which calls for lists have kept up to date: they tell fits whose neighbourhood was
+   * widened. May be null: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
+   */
+  const uint8_t *status;
+  /**
+   * The number of vertices, or 0 if `status` is null.
+   */
+  size_t status_count;
+} umb_moved;
+
+/**
+ * Where the numbers of a `umb_scalars` are: a `UMB_AT_` constant.
+ */
+typedef uint32_t umb_location;
+
+/**
+ * Numbers to read, one for each vertex or for each face, borrowed for the call: curvatures, say.
+ */
+typedef struct umb_scalars {
+  /**
+   * The first number, aligned to its scalar.
+   */
+  const void *data;
+  /**
+   * How many there are.
+   */
+  size_t count;
+  /**
+   * Bytes from one to the next, a multiple of the scalar's size; 0 if packed.
+   */
+  size_t stride;
+  /**
+   * The scalar type.
+   */
+  umb_scalar scalar;
+  /**
+   * Where they are.
+   */
+  umb_location location;
+} umb_scalars;
+
+/**
+ * How shapes are classified. All zero: with the default tolerance.
+ */
+typedef struct umb_shape_options {
+  /**
+   * `sizeof(umb_shape_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * H counts as 0 up to this, and K up to its square; 1/length. 0 stands for `umb_shape_tolerance` of `points`.
+   */
+  double tolerance;
+  /**
+   * The status bytes of the curvatures, `#V`: isolated and degenerate vertices are undefined. May be null.
+   */
+  const uint8_t *status;
+  /**
+   * The number of vertices, or 0 if `status` is null.
+   */
+  size_t status_count;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_shape_options;
+
+/**
+ * How a mesh is cut along its creases. All zero: along edges sharper than 30 degrees.
+ */
+typedef struct umb_feature_options {
+  /**
+   * `sizeof(umb_feature_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Which edges are creases, read only during the call; may be null.
+   */
+  const struct umb_creases *creases;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_feature_options;
+
+/**
+ * How a mesh is cut into basins. All zero: basins of curvedness by adaptive jets, the shallow ones merged.
+ */
+typedef struct umb_watershed_options {
+  /**
+   * `sizeof(umb_watershed_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Basins that are less deep than this are merged with the neighbour over the lowest pass; in the unit of the height, at most infinity. 0: none
+   * of a given height; of curvedness, those of less than four times `umb_shape_tolerance`.
+   */
+  double depth;
+  /**
+   * The height, at vertices or at faces: low inside segments, high between them. Null for curvedness.
+   */
+  const struct umb_scalars *height;
+  /**
+   * How curvedness is computed, `run` aside; null for adaptive jets. Not looked at beside a height.
+   */
+  const struct umb_curvature_options *curvature;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_watershed_options;
+
+/**
+ * How regions grow. All zero: by shape classes from adaptive jets.
+ */
+typedef struct umb_region_options {
+  /**
+   * `sizeof(umb_region_options)`; 0 stands for the size of its first version.
+   */
+  uint32_t struct_size;
+  /**
+   * 0
+   */
+  uint32_t reserved;
+  /**
+   * Faces whose normals differ by more than this, in radians, do not grow into each other; 0 stands for pi/6, and from pi on all
+   * do.
+   */
+  double angle;
+  /**
+   * Regions of less than this share of the whole area become part of a neighbour, 0 to 1; 0 stands for 0.0005.
+   */
+  double smallest_share;
+  /**
+   * For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`.
+   */
+  double tolerance;
+  /**
+   * Regions of fewer faces become part of a neighbour.
+   */
+  size_t smallest_faces;
+  /**
+   * A `UMB_SHAPE_` constant for each vertex, `#V`; null to have them computed.
+   */
+  const uint8_t *classes;
+  /**
+   * The number of vertices, or 0 if `classes` is null.
+   */
+  size_t class_count;
+  /**
+   * For classes that are not given: how curvatures are computed, `run` aside; null for adaptive jets.
+   */
+  const struct umb_curvature_options *curvature;
+  /**
+   * How to run; `vertices` must be null.
+   */
+  struct umb_run run;
+} umb_region_options;
+
+/**
  * Success.
  */
 #define UMB_OK 0
@@ -1203,6 +1459,16 @@ typedef struct umb_corner_outputs {
  * At most AVX-512.
  */
 #define UMB_SIMD_AVX512 4
+
+/**
+ * One for each vertex, `#V`; the default.
+ */
+#define UMB_AT_VERTICES 0
+
+/**
+ * One for each face, `#F`.
+ */
+#define UMB_AT_FACES 1
 
 /**
  * Heights over the tangent plane.
@@ -1974,6 +2240,284 @@ umb_status umb_corner_normals_from_faces(const struct umb_faces *faces,
                                          const struct umb_normal_options *options,
                                          const struct umb_output *corner,
                                          struct umb_error *error);
+
+/**
+ * Lists the vertices whose normals may change as others move: what `vertices` of `umb_run` has to be for a call that brings the normals up
+ * to date. Such a call gives, with those it leaves alone, the same bits as a call for all.
+ *
+ * These are the vertices within as many rings of those that moved as a normal depends on: one for averages, those of the fit for jets,
+ * one more than those of the fit for adaptive jets. Adaptive jets need a model (`umb_learn_model`): without, each normal depends on all
+ * positions.
+ *
+ * Threads: any number of calls may use one topology at once. Cost: the rings of what is found, and next to nothing for the rest of
+ * the mesh.
+ *
+ * @param topology the handle
+ * @param moved the vertices that moved
+ * @param options those of the call for the normals; `run` is not looked at. May be null
+ * @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+ * @param count receives the number of vertices in the list
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_MISALIGNED`, `_SIZE`,
+ * `_INDEX_OUT_OF_RANGE` (element: place in `moved->vertices`), `_NOT_APPLICABLE` (no model), `_OPTION_OUT_OF_RANGE`, `_OUT_OF_MEMORY`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_affected_normals(const struct umb_topology *topology,
+                                const struct umb_moved *moved,
+                                const struct umb_normal_options *options,
+                                uint32_t *vertices,
+                                size_t *count,
+                                struct umb_error *error);
+
+/**
+ * Lists the vertices whose curvatures may change as others move, or as normals do that the caller gives for them. Else as
+ * `umb_affected_normals`; the curvatures of regions by `radius` have no list (`UMB_ERROR_NOT_APPLICABLE`).
+ *
+ * @param topology the handle
+ * @param moved the vertices that moved, or whose given normals changed
+ * @param options those of the call for the curvatures; `run` is not looked at. May be null
+ * @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+ * @param count receives the number of vertices in the list
+ * @param error may be null
+ *
+ * Errors: as `umb_affected_normals`; `_STRIDE` for given normals.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_affected_curvatures(const struct umb_topology *topology,
+                                   const struct umb_moved *moved,
+                                   const struct umb_curvature_options *options,
+                                   uint32_t *vertices,
+                                   size_t *count,
+                                   struct umb_error *error);
+
+/**
+ * A tolerance for `umb_shape_classes` that goes with the size of a mesh: one by the diagonal of the bounding box of all points, so that a
+ * ball counts as curved up to a radius of the diagonal, and a cylinder up to half of that. 0 if the points are one or none. In 1/length. For
+ * meshes with noise take two to four times as much.
+ *
+ * @param points the positions of all vertices; read only during the call
+ * @param tolerance receives the number
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_NON_FINITE` (element:
+ * vertex).
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_shape_tolerance(const struct umb_points *points,
+                               double *tolerance,
+                               struct umb_error *error);
+
+/**
+ * Writes the shape class of each vertex (or face), a `UMB_SHAPE_` constant, from its principal curvatures: by the signs of
+ * H = (k1 + k2)/2, which is 0 up to a tolerance t, and of K = k1 k2, which is 0 up to t^2 (Besl and Jain 1986, whose H has the other sign: here
+ * it is positive where the surface bends away from its normal, as on a ball with outward normals).
+ *
+ * Both comparisons are as if without rounding. Same bits on any number of threads. Koenderink's shape index and curvedness are outputs of
+ * `umb_curvatures`.
+ *
+ * @param points positions, for the default tolerance; may be null if `options->tolerance` is not 0
+ * @param k1 the principal curvatures, in either order
+ * @param k2 likewise, as many
+ * @param options may be null
+ * @param classes receives a byte for each of `k1`
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_STRUCT_SIZE`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`,
+ * `_NON_FINITE` (element: vertex), `_OPTION_OUT_OF_RANGE`, `_CANCELLED`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_shape_classes(const struct umb_points *points,
+                             const struct umb_scalars *k1,
+                             const struct umb_scalars *k2,
+                             const struct umb_shape_options *options,
+                             const struct umb_status_output *classes,
+                             struct umb_error *error);
+
+/**
+ * Cuts a mesh into the parts that its creases bound: faces that meet are in one segment unless the edge between them is a crease. So a
+ * crease that ends inside a smooth part separates nothing. A face without area has the normal of a neighbour across its longest edge, and so
+ * does not join the two sides of a crease that it lies on.
+ *
+ * Cost: linear in the number of corners, on one thread.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param options may be null
+ * @param segmentation receives the handle; destroy it with `umb_segmentation_destroy`
+ * @param error may be null
+ *
+ * Errors: those of `umb_cut_create`; `_CANCELLED`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_segment_features(const struct umb_faces *faces,
+                                const struct umb_points *points,
+                                const struct umb_feature_options *options,
+                                struct umb_segmentation **segmentation,
+                                struct umb_error *error);
+
+/**
+ * Cuts a mesh into the basins of a height over its faces (Mangan and Whitaker 1999, here with basins that merge by depth as they meet:
+ * persistence). A height at vertices becomes one at faces by the mean of the corners. Faces are flooded in ascending order: one without a lower
+ * neighbour starts a basin, any other joins that of its lowest neighbour; connected faces of one height are one. Two basins merge
+ * where they meet if the shallower of them is less deep than `depth`. Ties go to the face with the smaller index.
+ *
+ * Same bits on any number of threads. Cost: O(n log n), on one thread but for the curvatures.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param options may be null
+ * @param segmentation receives the handle; destroy it with `umb_segmentation_destroy`
+ * @param error may be null
+ *
+ * Errors: those of `umb_topology_create` and `umb_curvatures`; `UMB_ERROR_NON_FINITE` also for a height (element: place).
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_segment_watershed(const struct umb_faces *faces,
+                                 const struct umb_points *points,
+                                 const struct umb_watershed_options *options,
+                                 struct umb_segmentation **segmentation,
+                                 struct umb_error *error);
+
+/**
+ * Grows regions of faces by the shape classes of their vertices (see `umb_shape_classes`): flat, cylindrical, spherical and saddle parts,
+ * whether creases bound them or not. Faces whose corners, those on creases aside, are all of one class make regions with neighbours of the same class
+ * across edges within the angle; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
+ * part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
+ *
+ * By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
+ * larger smallest region. On clean meshes of machine parts those of one ring (`UMB_CURVATURE_LEAST_SQUARES`), with half the
+ * tolerance, do as well and are faster. Two
+ * parts of one class that join smoothly are not separated, nor is a cone, whose curvature has no bound, from what is flat at
+ * its wide end by any tolerance.
+ *
+ * Same bits on any number of threads. Cost: O(n log n) at most, on one thread but for the curvatures.
+ *
+ * @param faces the faces; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param options may be null
+ * @param segmentation receives the handle; destroy it with `umb_segmentation_destroy`
+ * @param error may be null
+ *
+ * Errors: those of `umb_topology_create` and `umb_curvatures`; `UMB_ERROR_UNKNOWN_CONSTANT` also for a class.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_segment_regions(const struct umb_faces *faces,
+                               const struct umb_points *points,
+                               const struct umb_region_options *options,
+                               struct umb_segmentation **segmentation,
+                               struct umb_error *error);
+
+/**
+ * Frees a segmentation; null is fine.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+void umb_segmentation_destroy(struct umb_segmentation *segmentation);
+
+/**
+ * The number of segments; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_segmentation_count(const struct umb_segmentation *segmentation);
+
+/**
+ * The number of faces, ignored ones included; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_segmentation_face_count(const struct umb_segmentation *segmentation);
+
+/**
+ * The label of each face, `#F`, in the handle's memory: below `umb_segmentation_count`, or `UMB_NO_SEGMENT`. Null for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_segmentation_labels(const struct umb_segmentation *segmentation);
+
+/**
+ * The number of edges between segments; 0 for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+size_t umb_segmentation_boundary_edge_count(const struct umb_segmentation *segmentation);
+
+/**
+ * The edges between segments, each once, as its lower and its higher vertex, ascending, in the handle's memory: edges at which faces carry
+ * different labels, however many faces they have. Null for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_segmentation_boundary_edges(const struct umb_segmentation *segmentation);
+
+/**
+ * The area of each segment, length^2; a polygon's is the length of its area vector. What is beyond the range is its largest value.
+ *
+ * @param segmentation the handle
+ * @param faces the faces that were segmented; read only during the call
+ * @param points the positions of all vertices, those of then or others; read only during the call
+ * @param areas receives a number for each segment
+ * @param count the number of segments
+ * @param error may be null
+ *
+ * Errors: `UMB_ERROR_NULL_POINTER`, `_UNKNOWN_FIELD`, `_UNKNOWN_CONSTANT`, `_STRIDE`, `_MISALIGNED`, `_SIZE`, `_OFFSETS`,
+ * `_INDEX_OUT_OF_RANGE`, `_NON_FINITE` (element: vertex), `_OUT_OF_MEMORY`.
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_segmentation_areas(const struct umb_segmentation *segmentation,
+                                  const struct umb_faces *faces,
+                                  const struct umb_points *points,
+                                  double *areas,
+                                  size_t count,
+                                  struct umb_error *error);
+
+/**
+ * The mean of a number over each segment, weighted by the area of the faces; over a segment without area that of its faces. A number at
+ * vertices is taken as at faces, by the mean of the corners.
+ *
+ * @param segmentation the handle
+ * @param faces the faces that were segmented; read only during the call
+ * @param points the positions of all vertices; read only during the call
+ * @param scalars the numbers, at vertices or at faces; read only during the call
+ * @param means receives a number for each segment
+ * @param count the number of segments
+ * @param error may be null
+ *
+ * Errors: as `umb_segmentation_areas`; `UMB_ERROR_NON_FINITE` also for a number (element: place).
+ * @since 0.1.0
+ */
+UMB_API
+UMB_NODISCARD
+umb_status umb_segmentation_means(const struct umb_segmentation *segmentation,
+                                  const struct umb_faces *faces,
+                                  const struct umb_points *points,
+                                  const struct umb_scalars *scalars,
+                                  double *means,
+                                  size_t count,
+                                  struct umb_error *error);
 
 /**
  * The version of the library, `"0.1.0"`. Static.
