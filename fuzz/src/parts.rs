@@ -105,6 +105,14 @@ impl Creases {
         self.view.pointer()
     }
 
+    /// Checks that a call could accept these.
+    pub fn check_accepted(&self, vertex_count: usize, face_count: usize) {
+        assert!(self.seen.reserved == 0 && self.seen.angle >= 0.0, "angle {}", self.seen.angle);
+        let in_range = self.edges().iter().all(|&[_, high]| (high as usize) < vertex_count);
+        assert!(in_range, "edges {:?} among {vertex_count} vertices", self.edges());
+        assert!(self.groups().is_none_or(|groups| groups.len() == face_count), "{:?}", self.groups());
+    }
+
     /// Marked edges, the lower vertex first.
     pub fn edges(&self) -> Vec<[u32; 2]> {
         let list = self.edges.as_ref().map_or(&[][..], List::seen);

@@ -80,6 +80,8 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
         assert!(source.is_hostile() || excused, "sound input is refused");
         return;
     }
+    let all = known.as_ref().is_none_or(|known| known.data.is_null() || known.seen().len() == count);
+    assert!(all, "statuses of other vertices");
     let found = place.read();
     assert!(found <= count, "{found} of {count} vertices");
     let (list, rest) = block.bytes().split_at(4 * found);

@@ -37,6 +37,7 @@ impl Drop for Cut {
 pub fn cut(source: &mut Source<'_>, scene: &Scene) {
     let creases = Creases::new(source, scene);
     let Some(cut) = create(source, scene, &creases) else { return };
+    creases.check_accepted(scene.points.count, scene.faces.face_count());
     check(scene, &cut);
     for _ in 0..=source.below(3) {
         match source.below(4) {
@@ -231,6 +232,8 @@ pub fn corners_from_faces(source: &mut Source<'_>, scene: &Scene) {
         assert!(source.is_hostile() || status == UMB_ERROR_CANCELLED, "sound input is refused: {status}");
         return;
     }
+    creases.check_accepted(view.count, scene.faces.face_count());
+    assert!(run.list.is_none(), "corners of a list");
     corner.check_gaps(|_| true, "corner");
     for place in 0..scene.faces.corner_count() {
         corner.unit(place, "corner");

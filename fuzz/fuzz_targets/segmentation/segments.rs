@@ -198,6 +198,7 @@ pub fn features(source: &mut Source<'_>, scene: &Scene) {
     let points = points(source, scene);
     let found = segment(source, scene, options, &view, points, &watch, false);
     let Some(Found { segments, mesh, meeting }) = found else { return };
+    creases.check_accepted(points.count, segments.labels().len());
     let most = if creases.seen.angle == 0.0 { FRAC_PI_6 } else { creases.seen.angle };
     let mesh = match placed_mesh(source, scene, &mesh) {
         Some(mesh) => mesh,
@@ -275,6 +276,7 @@ pub fn watershed(source: &mut Source<'_>, scene: &Scene) {
     let points = scene.points.points();
     let found = segment(source, scene, options, &view, points, &watch, excused);
     let Some(Found { segments, meeting, .. }) = found else { return };
+    assert!(options.depth >= 0.0, "depth {}", options.depth);
     if options.depth == f64::INFINITY {
         assert_eq!(segments.labels(), meeting.components(|_, _, _| true), "all that is connected is one basin");
     } else if let Some(height) = height.filter(|_| location == UMB_AT_FACES && !source.is_hostile()) {
@@ -342,6 +344,11 @@ pub fn regions(source: &mut Source<'_>, scene: &Scene) {
     let points = scene.points.points();
     let found = segment(source, scene, options, &view, points, &watch, excused);
     let Some(Found { segments, meeting, .. }) = found else { return };
+    assert!(options.angle >= 0.0 && (0.0..=1.0).contains(&options.smallest_share));
+    if let Some(classes) = classes.filter(|classes| !classes.data.is_null()) {
+        let known = classes.seen().iter().all(|&class| class <= UMB_SHAPE_SADDLE_VALLEY);
+        assert!(known && classes.seen().len() == points.count, "{:?} of {} vertices", classes.seen(), points.count);
+    }
     // Whoever has a neighbour is not too small.
     let tally = |labels: &[u32]| {
         let mut sizes = vec![0; labels.len()];

@@ -80,6 +80,9 @@ pub fn classes(source: &mut Source<'_>, scene: &Scene) {
         assert!(source.is_hostile() || status == UMB_ERROR_CANCELLED, "sound input is refused: {status}");
         return;
     }
+    let all = known.as_ref().is_none_or(|known| known.data.is_null() || known.seen().len() == count);
+    assert!(all && views[1].count == count && (0.0..f64::INFINITY).contains(&tolerance));
+    assert!(views.iter().all(|view| view.location <= UMB_AT_FACES), "scalars at neither vertices nor faces");
     found.check_gaps(|_| true, "class");
     for vertex in 0..count {
         let class = found.element(vertex).expect("a class for each vertex");
