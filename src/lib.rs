@@ -47,9 +47,11 @@ pub use parallel::Run;
 pub use parts::{
     CURVEDNESS_DEPTH, CornerOutputs, Creases, CutMesh, DEFAULT_CREASE_ANGLE, NO_SEGMENT, REGION_TOLERANCE,
     RegionOptions, SHAPE_TOLERANCE, ScalarField, Segmentation, ShapeClass, affected_curvatures, affected_normals,
-    corner_normals, feature_segmentation, region_growing, regions_of_shape, shape_classes, shape_tolerance,
-    watershed, watershed_of_curvedness,
+    corner_normals, curvedness_depth, feature_segmentation, fill_unknown, has_curvature, region_growing,
+    region_tolerance, regions_of_shape, shape_classes, shape_tolerance, watershed, watershed_of_curvedness,
 };
 pub use simd::Level;
 pub use topology::{Fan, Topology, TopologyStats, status};
-pub use view::{Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, Scalars, StatusOutput};
+pub use view::{
+    Bytes, Faces, IndexArray, Indices, Output, Points, PolylinePoints, ScalarOutput, Scalars, StatusOutput,
+};

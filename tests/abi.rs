@@ -17,6 +17,7 @@ macro_rules! layout {
 #[test]
 fn layouts() {
     layout!(umb_adaptive_model: 88, struct_size 0, coordinates 4, edge_length 8, noise 16, sizes 24, noise_exponent 56, size_exponent 60, evidence 64, sample 80, reserved 84);
+    layout!(umb_bytes: 24, data 0, count 8, stride 16);
     layout!(umb_corner_outputs: 96, struct_size 0, reserved 4, corner 8, normal 32, sum 56, status 80);
     layout!(umb_creases: 48, struct_size 0, reserved 4, angle 8, edges 16, edge_count 24, groups 32, group_count 40);
     layout!(umb_curvature_options: 120, struct_size 0, method 4, section 8, weight 12, radius 16, degree 24, rings 28, normal_degree 32, normal_rings 36, model 40, normals 48, run 80);
@@ -27,7 +28,7 @@ fn layouts() {
     layout!(umb_faces: 40, indices 0, index_count 8, offsets 16, face_count 24, index 32, arity 36);
     layout!(umb_fan: 32, neighbours 0, neighbour_count 8, corner_count 16, closed 24, reserved 28);
     layout!(umb_feature_options: 56, struct_size 0, reserved 4, creases 8, run 16);
-    layout!(umb_moved: 40, struct_size 0, reserved 4, vertices 8, vertex_count 16, status 24, status_count 32);
+    layout!(umb_moved: 48, struct_size 0, reserved 4, vertices 8, vertex_count 16, status 24);
     layout!(umb_normal_options: 64, struct_size 0, weight 4, run 8, degree 48, rings 52, model 56);
     layout!(umb_normal_outputs: 72, struct_size 0, reserved 4, normal 8, sum 32, status 56);
     layout!(umb_output: 24, data 0, stride 8, scalar 16, reserved 20);
@@ -35,12 +36,12 @@ fn layouts() {
     layout!(umb_polyline: 40, data 0, count 8, stride 16, scalar 24, dimension 28, closed 32, reserved 36);
     layout!(umb_polyline_options: 48, struct_size 0, reserved 4, run 8);
     layout!(umb_polyline_outputs: 120, struct_size 0, reserved 4, circle 8, parabola 32, length_parabola 56, symmetric_parabola 80, status 104);
-    layout!(umb_region_options: 104, struct_size 0, reserved 4, angle 8, smallest_share 16, tolerance 24, smallest_faces 32, classes 40, class_count 48, curvature 56, run 64);
+    layout!(umb_region_options: 112, struct_size 0, reserved 4, smallest_share 8, tolerance 16, smallest_faces 24, creases 32, classes 40, curvature 64, run 72);
     layout!(umb_run: 40, threads 0, simd 4, vertices 8, vertex_count 16, progress 24, user 32);
     layout!(umb_scalars: 32, data 0, count 8, stride 16, scalar 24, location 28);
     layout!(umb_section_options: 136, struct_size 0, section 4, weight 8, shared 12, normals 16, directions 48, normal_degree 80, normal_rings 84, model 88, run 96);
     layout!(umb_section_outputs: 72, struct_size 0, reserved 4, curvature 8, status 32, normal 48);
-    layout!(umb_shape_options: 72, struct_size 0, reserved 4, tolerance 8, status 16, status_count 24, run 32);
+    layout!(umb_shape_options: 88, struct_size 0, reserved 4, tolerance 8, points 16, status 24, run 48);
     layout!(umb_status_output: 16, data 0, stride 8);
     layout!(umb_topology_options: 16, struct_size 0, threads 4, simd 8, reserved 12);
     layout!(umb_topology_stats: 152, struct_size 0, reserved 4, vertex_count 8, face_count 16, corner_count 24, edge_count 32, boundary_edges 40, non_manifold_edges 48, winding_edges 56, isolated_vertices 64, boundary_vertices 72, non_manifold_vertices 80, degenerate_faces 88, ignored_faces 96, duplicate_faces 104, component_count 112, boundary_loops 120, euler_characteristic 128, max_valence 136, bytes 144);

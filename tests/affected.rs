@@ -120,9 +120,11 @@ fn affected(handle: &Handle, count: usize, moved: &umb_moved, asked: &Asked) -> 
     let (data, at) = (list.as_mut_ptr(), &raw mut length);
     let mut error: umb_error = zeroed();
     let status = match asked {
-        Asked::Normals(options) => unsafe { umb_affected_normals(handle.0, moved, options, data, at, &mut error) },
+        Asked::Normals(options) => unsafe {
+            umb_affected_normals(handle.0, moved, options, data, count, at, &mut error)
+        },
         Asked::Curvatures(options) => unsafe {
-            umb_affected_curvatures(handle.0, moved, options, data, at, &mut error)
+            umb_affected_curvatures(handle.0, moved, options, data, count, at, &mut error)
         },
     };
     if status != UMB_OK {
@@ -139,8 +141,11 @@ fn moved_of(list: &[u32], status: Option<&[u8]>) -> umb_moved {
         reserved: 0,
         vertices: list.as_ptr(),
         vertex_count: list.len(),
-        status: status.map_or(std::ptr::null(), <[u8]>::as_ptr),
-        status_count: status.map_or(0, <[u8]>::len),
+        status: umb_bytes {
+            data: status.map_or(std::ptr::null(), <[u8]>::as_ptr),
+            count: status.map_or(0, <[u8]>::len),
+            stride: 0,
+        },
     }
 }
 
@@ -294,9 +299,10 @@ fn what_is_refused() {
         assert_eq!(refused(&moved_of(&moved, Some(&[0; 5]))), UMB_ERROR_SIZE);
         assert_eq!(refused(&umb_moved { reserved: 1, ..moved_of(&moved, None) }), UMB_ERROR_UNKNOWN_FIELD);
         assert_eq!(refused(&umb_moved { struct_size: 3, ..moved_of(&moved, None) }), UMB_ERROR_STRUCT_SIZE);
-        let null = std::ptr::null();
+        let null = std::ptr::null::<u32>();
         assert_eq!(refused(&umb_moved { vertices: null, ..moved_of(&moved, None) }), UMB_ERROR_NULL_POINTER);
-        assert_eq!(refused(&umb_moved { status_count: 5, ..moved_of(&moved, None) }), UMB_ERROR_NULL_POINTER);
+        let nowhere = umb_bytes { data: null.cast(), count: 5, stride: 0 };
+        assert_eq!(refused(&umb_moved { status: nowhere, ..moved_of(&moved, None) }), UMB_ERROR_NULL_POINTER);
         assert!(affected(&handle, count, &moved_of(&[], None), &asked).unwrap().is_empty());
     }
     // Adaptive jets without a model depend on everything; balls on what is near.

@@ -252,11 +252,15 @@ fn scalars_are_at_vertices_or_faces() {
     let to = umb_status_output { data: classes.as_mut_ptr(), stride: 0 };
     let mut error: umb_error = zeroed();
     let mut classify = |k1: umb_scalars, k2: umb_scalars| {
-        let status = unsafe { umb_shape_classes(std::ptr::null(), &k1, &k2, &options, &to, &mut error) };
+        let status = unsafe { umb_shape_classes(&k1, &k2, &options, &to, &mut error) };
         (status, error.element)
     };
     assert_eq!(classify(sound, sound).0, UMB_OK);
-    assert_eq!(classify(umb_scalars { location: 2, ..sound }, sound), (UMB_ERROR_UNKNOWN_CONSTANT, 2));
+    let nowhere = umb_scalars { location: 2, ..sound };
+    assert_eq!(classify(nowhere, nowhere), (UMB_ERROR_UNKNOWN_CONSTANT, 2));
+    // Curvatures of a vertex are not those of a face.
+    let vertices = umb_scalars { location: UMB_AT_VERTICES, ..sound };
+    assert_eq!(classify(vertices, sound).0, UMB_ERROR_UNKNOWN_CONSTANT);
     assert_eq!(classify(sound, umb_scalars { location: u32::MAX, ..sound }).0, UMB_ERROR_UNKNOWN_CONSTANT);
     assert_eq!(classes, [UMB_SHAPE_PEAK; 3]);
 }

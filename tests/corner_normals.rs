@@ -16,7 +16,7 @@ fn faces(mesh: &Mesh) -> Faces<'_> {
 }
 
 fn cut(mesh: &Mesh, creases: &Creases<'_>) -> CutMesh {
-    CutMesh::new(&faces(mesh), &mesh.positions[..].into(), creases, &Run::default()).unwrap()
+    CutMesh::new(&faces(mesh), &mesh.positions[..].into(), creases, Run::default()).unwrap()
 }
 
 fn normals(mesh: &Mesh, cut: &CutMesh, weight: Weight) -> Vec<Vector> {
@@ -373,7 +373,7 @@ fn fits_stop_at_creases() {
 fn refusals() {
     let mesh = cube();
     let points = Points::from(&mesh.positions[..]);
-    let cut = |creases: &Creases<'_>| CutMesh::new(&faces(&mesh), &points, creases, &Run::default()).map(|_| ());
+    let cut = |creases: &Creases<'_>| CutMesh::new(&faces(&mesh), &points, creases, Run::default()).map(|_| ());
     for angle in [-0.1, f64::NAN, f64::NEG_INFINITY] {
         let expected = Err(Error::OptionOutOfRange { what: "creases.angle" });
         assert_eq!(cut(&Creases { angle, ..Creases::default() }), expected);
@@ -387,6 +387,78 @@ fn refusals() {
     assert_eq!(cut(&Creases { edges: &edges, ..Creases::default() }), expected);
     let mut spoilt = mesh.positions.clone();
     spoilt[3][1] = f64::INFINITY;
-    let found = CutMesh::new(&faces(&mesh), &spoilt[..].into(), &Creases::default(), &Run::default());
+    let found = CutMesh::new(&faces(&mesh), &spoilt[..].into(), &Creases::default(), Run::default());
     assert_eq!(found.map(|_| ()), Err(Error::NonFinitePosition { vertex: 3 }));
+}
+
+/// A triangle without area in the edge of a box is no bridge from side to side.
+#[test]
+fn slivers_on_creases_join_nothing() {
+    // A top and a side, whose common edge has a vertex more on the side, and between them what is left of it.
+    let positions = vec![
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 0.0, -2.0],
+        [2.0, 0.0, -2.0],
+    ];
+    let faces = vec![vec![0, 1, 4, 3], vec![0, 2, 1], vec![0, 5, 6, 1, 2]];
+    let mesh = Mesh::new("sliver", positions, faces);
+    let parts = cut(&mesh, &Creases::default());
+    for weight in WEIGHTS {
+        for (corner, normal) in normals(&mesh, &parts, weight).into_iter().enumerate() {
+            if !(4..7).contains(&corner) {
+                let expected = if corner < 4 { [0.0, 0.0, 1.0] } else { [0.0, -1.0, 0.0] };
+                assert!(largest_difference(normal, expected) < 1e-15, "{weight:?}, corner {corner}: {normal:?}");
+            }
+        }
+    }
+}
+
+/// What moves or is computed for a list is found by where the vertices of the cut mesh start.
+#[test]
+fn lists_take_what_they_need() {
+    let mesh = cube();
+    let parts = cut(&mesh, &Creases::default());
+    assert_eq!(parts.starts().len(), mesh.positions.len() + 1);
+    for (vertex, ends) in parts.starts().windows(2).enumerate() {
+        assert_eq!(ends[1] - ends[0], 3);
+        assert!(parts.origins()[ends[0] as usize..ends[1] as usize].iter().all(|&origin| origin as usize == vertex));
+    }
+    let of = |positions: &[Vector], vertices: Option<&[u32]>| {
+        let mut normal = vec![[7.0; 3]; parts.origins().len()];
+        let outputs = CornerOutputs {
+            vertex: NormalOutputs { normal: Some(normal.as_mut_slice().into()), ..NormalOutputs::default() },
+            ..CornerOutputs::default()
+        };
+        let run = Run { vertices, ..Run::default() };
+        corner_normals(&parts, &positions.into(), Weight::Angle, run, &outputs).map(|()| normal)
+    };
+    let whole = of(&mesh.positions, None).unwrap();
+    let list = [parts.starts()[2], parts.starts()[5]];
+    let some = of(&mesh.positions, Some(&list)).unwrap();
+    for (vertex, (found, expected)) in some.iter().zip(&whole).enumerate() {
+        assert_eq!(found, if list.contains(&(vertex as u32)) { expected } else { &[7.0; 3] });
+    }
+    assert!(matches!(of(&mesh.positions, Some(&[99])), Err(Error::IndexOutOfRange { .. })));
+    // What is not finite is told by the original vertex, wherever a list needs it, and nowhere else.
+    for spoilt in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for vertex in 0..8 {
+            let mut positions = mesh.positions.clone();
+            positions[vertex][1] = spoilt;
+            assert_eq!(of(&positions, None), Err(Error::NonFinitePosition { vertex: vertex as u64 }));
+            let near = list.map(|at| {
+                mesh.faces().zip(0..).any(|(face, number)| {
+                    face.contains(&(vertex as u32)) && parts.corners()[4 * number..4 * number + 4].contains(&at)
+                })
+            });
+            let found = of(&positions, Some(&list));
+            match near.contains(&true) {
+                true => assert_eq!(found, Err(Error::NonFinitePosition { vertex: vertex as u64 })),
+                false => assert_eq!(found.as_ref(), Ok(&some)),
+            }
+        }
+    }
 }

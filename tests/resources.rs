@@ -153,6 +153,7 @@ fn calls_are_cancelled(fixtures: &[Fixture]) {
                     let mut prepared = Prepared::new(call, fixture, &setting);
                     let live = LIVE.load(SeqCst);
                     let status = prepared.call();
+                    prepared.free();
                     let place = (call, &fixture.mesh.name, threads, step);
                     assert_eq!(LIVE.load(SeqCst), live, "{place:?}: memory is left");
                     if status == UMB_OK {

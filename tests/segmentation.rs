@@ -26,7 +26,7 @@ fn by_face_heights(mesh: &Mesh, heights: &[f64], depth: f64) -> Segmentation {
 }
 
 fn by_classes(mesh: &Mesh, classes: &[u8], options: &RegionOptions) -> Segmentation {
-    region_growing(&faces(mesh), &Points::from(&mesh.positions), classes, options, Run::default()).unwrap()
+    region_growing(&faces(mesh), &Points::from(&mesh.positions), &classes.into(), options, Run::default()).unwrap()
 }
 
 fn meshes() -> Vec<Mesh> {
@@ -213,7 +213,11 @@ fn regions_by_class_angle_and_size() {
     assert_eq!(by_classes(&kinked, &classes, &all).labels(), [0, 0, 0, 0, 0, 1, 1, 1, 1, 1]);
     let sharp = strip.mapped(|[x, y, _]| [x, y, (x - 8.0).max(0.0)]);
     assert_eq!(by_classes(&sharp, &classes, &all).count(), 3);
-    assert_eq!(by_classes(&sharp, &classes, &RegionOptions { angle: 1.0, ..all }).count(), 2);
+    assert_eq!(
+        by_classes(&sharp, &classes, &RegionOptions { creases: Creases { angle: 1.0, ..Default::default() }, ..all })
+            .count(),
+        2
+    );
     assert_eq!(by_classes(&sharp, &classes, &RegionOptions { smallest_faces: 2, ..all }).count(), 3);
     // A smooth neighbour of another class comes before one of the same class across a crease.
     let sharp = strip.mapped(|[x, y, _]| [x, y, (x - 7.0).max(0.0)]);
@@ -229,7 +233,11 @@ fn regions_by_class_angle_and_size() {
         let mut random = Random::new(1);
         let classes: Vec<u8> = mesh.positions.iter().map(|_| random.below(9) as u8).collect();
         for smallest_faces in [0, 2, 5, 1000] {
-            let found = by_classes(&mesh, &classes, &RegionOptions { smallest_faces, angle: 0.5, ..all });
+            let found = by_classes(
+                &mesh,
+                &classes,
+                &RegionOptions { smallest_faces, creases: Creases { angle: 0.5, ..Default::default() }, ..all },
+            );
             check_labels(&mesh, &found);
             // Whoever has a neighbour is not too small.
             let whole = by_creases(&mesh, &Creases { angle: PI, ..Default::default() });
@@ -302,7 +310,7 @@ fn numbers_of_vertices_and_threads_change_nothing() {
             [
                 feature_segmentation(&faces, &points, &Creases::default(), run(threads)),
                 watershed(&faces, count, &ScalarField::Vertices(field.into()), 0.1, run(threads)),
-                region_growing(&faces, &points, classes, &RegionOptions::default(), run(threads)),
+                region_growing(&faces, &points, &classes.into(), &RegionOptions::default(), run(threads)),
             ]
             .map(|found| found.unwrap().labels().iter().map(|&label| label as usize).collect::<Vec<_>>())
         };
@@ -324,7 +332,7 @@ fn what_is_refused() {
     let creases =
         |angle| feature_segmentation(&all, &points, &Creases { angle, ..Default::default() }, Run::default());
     for angle in [-1e-9, f64::NAN] {
-        assert_eq!(creases(angle).unwrap_err(), Error::OptionOutOfRange { what: "angle" });
+        assert_eq!(creases(angle).unwrap_err(), Error::OptionOutOfRange { what: "creases.angle" });
     }
     let mut heights = vec![0.0; count];
     let flood = |heights: &[f64], depth| {
@@ -340,7 +348,7 @@ fn what_is_refused() {
         Err(Error::IndexOutOfRange { .. })
     ));
     let grow = |classes: &[u8], options: &RegionOptions| {
-        region_growing(&all, &points, classes, options, Run::default()).unwrap_err()
+        region_growing(&all, &points, &classes.into(), options, Run::default()).unwrap_err()
     };
     let plain = RegionOptions::default();
     assert_eq!(grow(&vec![9; count], &plain), Error::UnknownConstant { what: "classes", value: 9 });
@@ -370,7 +378,7 @@ fn progress_rises_and_cancels() {
             match kind {
                 0 => feature_segmentation(&all, &points, &Creases::default(), run),
                 1 => watershed(&all, count, &ScalarField::Vertices((&heights).into()), 0.0, run),
-                _ => region_growing(&all, &points, &classes, &RegionOptions::default(), run),
+                _ => region_growing(&all, &points, &(&classes).into(), &RegionOptions::default(), run),
             }
         };
         let mut seen = vec![];

@@ -45,7 +45,7 @@ impl<'a> Curved<'a> {
         let tolerance = tolerances * self.tolerance;
         shape_classes(&k1.into(), &k2.into(), None, tolerance, Run::default(), &output).unwrap();
         let points = Points::from(&self.solid.mesh.positions);
-        region_growing(&faces(self.solid), &points, &classes, options, Run::default()).unwrap()
+        region_growing(&faces(self.solid), &points, &(&classes).into(), options, Run::default()).unwrap()
     }
 
     fn basins(&self, tolerances: f64) -> Segmentation {

@@ -188,7 +188,7 @@ fn views_statuses_and_threads() {
         (0..count).map(|v| [0, status::ISOLATED, status::DEGENERATE, status::BOUNDARY][v % 4]).collect();
     let mut found = vec![255; count];
     let output = found.as_mut_slice().into();
-    shape_classes(&(&k[0]).into(), &(&k[1]).into(), Some(&bits), 1.0, Run::default(), &output).unwrap();
+    shape_classes(&(&k[0]).into(), &(&k[1]).into(), Some(&(&bits).into()), 1.0, Run::default(), &output).unwrap();
     for v in 0..count {
         assert_eq!(found[v], if v % 4 == 1 || v % 4 == 2 { Undefined as u8 } else { expected[v] });
     }
@@ -201,7 +201,8 @@ fn what_is_refused() {
     let mut classes = [0u8; 5];
     let mut refused = |k1: &[f64], k2: &[f64], status: Option<&[u8]>, tolerance, count: usize| {
         let output = classes[..count].as_mut().into();
-        shape_classes(&k1.into(), &k2.into(), status, tolerance, Run::default(), &output).unwrap_err()
+        shape_classes(&k1.into(), &k2.into(), status.map(Into::into).as_ref(), tolerance, Run::default(), &output)
+            .unwrap_err()
     };
     for tolerance in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(refused(&one, &one, None, tolerance, 5), Error::OptionOutOfRange { what: "tolerance" });

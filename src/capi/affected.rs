@@ -5,10 +5,11 @@ use super::guard::guard;
 use super::normals::umb_normal_options;
 use super::status::{umb_error, umb_status};
 use super::topology::umb_topology;
-use super::types::{bytes, numbers};
+use super::types::{numbers, umb_bytes};
 use super::versioned::{check_reserved, read_versioned, required};
 use crate::error::Error;
 use crate::parts::{affected_curvatures, affected_normals};
+use crate::view::Bytes;
 use libc::size_t;
 use std::mem::offset_of;
 
@@ -25,10 +26,8 @@ pub struct umb_moved {
     /// The number of `vertices`.
     pub vertex_count: size_t,
     /// The status bytes of the results as they were, `#V`, which calls for lists have kept up to date: they tell fits whose neighbourhood was
-    /// widened. May be null: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
-    pub status: *const u8,
-    /// The number of vertices, or 0 if `status` is null.
-    pub status_count: size_t,
+    /// widened. May be none: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
+    pub status: umb_bytes,
 }
 
 /// Lists the vertices whose normals may change as others move: what `vertices` of `umb_run` has to be for a call that brings the normals up
@@ -39,12 +38,13 @@ pub struct umb_moved {
 /// positions.
 ///
 /// Threads: any number of calls may use one topology at once. Cost: the rings of what is found, and next to nothing for the rest of
-/// the mesh.
+/// the mesh: a byte a vertex that is cleared.
 ///
 /// @param topology the handle
 /// @param moved the vertices that moved
 /// @param options those of the call for the normals; `run` is not looked at. May be null
-/// @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+/// @param vertices receives the list, each vertex once, those that moved first; null, with no room, to ask for their number alone
+/// @param room how many `vertices` has room for; as many as the topology has vertices are enough for any list
 /// @param count receives the number of vertices in the list
 /// @param error may be null
 ///
@@ -58,6 +58,7 @@ pub unsafe extern "C" fn umb_affected_normals(
     moved: *const umb_moved,
     options: *const umb_normal_options,
     vertices: *mut u32,
+    room: size_t,
     count: *mut size_t,
     error: *mut umb_error,
 ) -> umb_status {
@@ -68,7 +69,7 @@ pub unsafe extern "C" fn umb_affected_normals(
             let moved = required(moved, "moved")?;
             let (list, statuses) = moved.view()?;
             let weight = read_versioned(options)?.asked()?;
-            hand_out(vertices, count, || affected_normals(topology, list, weight, statuses))
+            hand_out(vertices, room, count, || affected_normals(topology, list, weight, statuses.as_ref()))
         })
     }
 }
@@ -79,7 +80,8 @@ pub unsafe extern "C" fn umb_affected_normals(
 /// @param topology the handle
 /// @param moved the vertices that moved, or whose given normals changed
 /// @param options those of the call for the curvatures; `run` is not looked at. May be null
-/// @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+/// @param vertices receives the list, each vertex once, those that moved first; null, with no room, to ask for their number alone
+/// @param room how many `vertices` has room for; as many as the topology has vertices are enough for any list
 /// @param count receives the number of vertices in the list
 /// @param error may be null
 ///
@@ -92,6 +94,7 @@ pub unsafe extern "C" fn umb_affected_curvatures(
     moved: *const umb_moved,
     options: *const umb_curvature_options,
     vertices: *mut u32,
+    room: size_t,
     count: *mut size_t,
     error: *mut umb_error,
 ) -> umb_status {
@@ -102,7 +105,7 @@ pub unsafe extern "C" fn umb_affected_curvatures(
             let moved = required(moved, "moved")?;
             let (list, statuses) = moved.view()?;
             let options = read_versioned(options)?.asked()?;
-            hand_out(vertices, count, || affected_curvatures(topology, list, &options, statuses))
+            hand_out(vertices, room, count, || affected_curvatures(topology, list, &options, statuses.as_ref()))
         })
     }
 }
@@ -112,12 +115,12 @@ impl umb_moved {
     ///
     /// # Safety
     /// The fields describe memory that stays readable and unchanged for `'a`.
-    unsafe fn view<'a>(&self) -> Result<(&'a [u32], Option<&'a [u8]>), Error> {
+    unsafe fn view<'a>(&self) -> Result<(&'a [u32], Option<Bytes<'a>>), Error> {
         check_reserved("umb_moved", offset_of!(umb_moved, reserved), self.reserved)?;
         // SAFETY: handed on.
         unsafe {
             let list = numbers(self.vertices, self.vertex_count, "moved.vertices")?;
-            Ok((list.unwrap_or_default(), bytes(self.status, self.status_count, "moved.status")?))
+            Ok((list.unwrap_or_default(), self.status.view("moved.status")?))
         }
     }
 }
@@ -125,21 +128,28 @@ impl umb_moved {
 /// Writes a list and its length.
 ///
 /// # Safety
-/// `vertices` has room for every list that there can be; `count` may be written.
+/// `vertices` is null or has room for `room` numbers; `count` is null or may be written.
 unsafe fn hand_out(
     vertices: *mut u32,
+    room: usize,
     count: *mut size_t,
     list: impl FnOnce() -> Result<Vec<u32>, Error>,
 ) -> Result<(), Error> {
-    for (pointer, what) in [(vertices.cast::<u8>(), "vertices"), (count.cast(), "count")] {
-        if pointer.is_null() {
-            return Err(Error::NullPointer { what });
-        }
+    if vertices.is_null() && room > 0 {
+        return Err(Error::NullPointer { what: "vertices" });
+    }
+    if count.is_null() {
+        return Err(Error::NullPointer { what: "count" });
     }
     let list = list()?;
-    // SAFETY: not null, and with room.
+    if !vertices.is_null() && room < list.len() {
+        return Err(Error::Size { what: "room", found: room as u64, expected: list.len() as u64 });
+    }
+    // SAFETY: not null where something is written, and with room.
     unsafe {
-        std::ptr::copy_nonoverlapping(list.as_ptr().cast::<u8>(), vertices.cast(), size_of_val(&list[..]));
+        if !vertices.is_null() {
+            std::ptr::copy_nonoverlapping(list.as_ptr().cast::<u8>(), vertices.cast(), size_of_val(&list[..]));
+        }
         count.write_unaligned(list.len());
     }
     Ok(())

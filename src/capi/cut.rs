@@ -21,7 +21,8 @@ pub struct umb_cut(CutMesh);
 /// Which edges are creases; an edge is one if any field says so. All zero: those that are sharper than 30 degrees.
 ///
 /// An edge with one face, with more than two, or whose two faces run through it in the same direction separates its faces in any
-/// case.
+/// case. If cutting leaves just two of the faces at such an edge, in opposite directions, these meet there in the cut mesh: a sheet on which a
+/// fin stands is whole.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct umb_creases {
@@ -29,14 +30,16 @@ pub struct umb_creases {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
-    /// An edge is a crease if the normals of its two faces differ by more than this angle, in radians; 0 stands for pi/6, and from
-    /// pi on none is one by its angle. No edge of a face without area is.
+    /// An edge is a crease if the normals of its two faces differ by more than this angle, in radians; from pi on none is one by its
+    /// angle. 0 stands for pi/6 if there are neither `edges` nor `groups`, else for pi. A face without area has the normal of a neighbour, across
+    /// its longest edge to one that has one: so a sliver along a crease does not join its sides.
     pub angle: f64,
     /// Vertices of edges that are creases, two for each, in any order; pairs that no edge joins mean nothing. May be null.
     pub edges: *const u32,
     /// The number of pairs.
     pub edge_count: size_t,
-    /// The smoothing group of each face, `#F`: the edge between two faces is a crease if theirs differ or are 0, which is no group.
+    /// The smoothing group of each face, `#F`, a number as in OBJ files (not a mask of bits as in 3DS files): the edge between two faces is a
+    /// crease if theirs differ or are 0, which is no group.
     /// Null: there are none.
     pub groups: *const u32,
     /// The number of faces, or 0 if `groups` is null.
@@ -70,8 +73,8 @@ pub struct umb_corner_outputs {
 ///
 /// Positions are looked at for the angles only: as they move, the cut stays until the caller makes another.
 ///
-/// Cost: linear in the number of corners, on one thread but for the topology. Held are the topology and 4 bytes a corner and a
-/// vertex.
+/// Cost: linear in the number of corners, on one thread but for normals and topology. Held are the topology and 4 bytes a corner, a
+/// vertex and a vertex of the cut mesh.
 ///
 /// @param faces the faces; read only during the call
 /// @param points the positions of all vertices; read only during the call
@@ -104,7 +107,7 @@ pub unsafe extern "C" fn umb_cut_create(
                 return Err(Error::NullPointer { what: "cut" });
             }
             let run = Run { threads, level, ..Run::default() };
-            let made = CutMesh::new(&faces, &points, &creases, &run)?;
+            let made = CutMesh::new(&faces, &points, &creases, run)?;
             cut.write_unaligned(Box::into_raw(boxed(umb_cut(made))?));
             Ok(())
         })
@@ -169,8 +172,18 @@ pub unsafe extern "C" fn umb_cut_origins(cut: *const umb_cut) -> *const u32 {
     unsafe { cut.as_ref() }.map_or(std::ptr::null(), |cut| cut.0.origins().as_ptr())
 }
 
+/// Where the vertices of the cut mesh that come from each original vertex start, `#V + 1` numbers in the handle's memory: those of vertex `v` are
+/// the numbers from `starts[v]` up to `starts[v + 1]`, so that what moves or is marked there is found here. Null for null.
+///
+/// @since 0.1.0
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn umb_cut_starts(cut: *const umb_cut) -> *const u32 {
+    // SAFETY: null or a handle.
+    unsafe { cut.as_ref() }.map_or(std::ptr::null(), |cut| cut.0.starts().as_ptr())
+}
+
 /// Copies an element for each original vertex, positions for example, to each vertex of the cut mesh that comes from it: what calls
-/// over `umb_cut_topology` take.
+/// over `umb_cut_topology` take. A number beyond the range of the output's scalar becomes its largest; what is not finite stays so.
 ///
 /// @param cut the handle
 /// @param points an element for each original vertex
@@ -200,7 +213,7 @@ pub unsafe extern "C" fn umb_cut_points(
 /// Computes a unit normal for each corner of each face: smooth where faces go on, split at creases.
 ///
 /// They are the vertex normals of the cut mesh, by any weight: an open run of faces counts as one at a boundary does. Where nothing is cut, they are those of
-/// `umb_vertex_normals`, to the bit. `UMB_WEIGHT_ANGLE` is what Blender takes for corner normals, and what those expect who bake
+/// `umb_vertex_normals`, to the bit if all outputs are of one scalar: one in `f64` has all computed in double precision. `UMB_WEIGHT_ANGLE` is what Blender takes for corner normals, and what those expect who bake
 /// or shade with MikkTSpace: it makes tangents, and takes normals as they are given.
 ///
 /// A renderer that has an index for each attribute takes `normal` with `umb_cut_corners`; one that has a single index
@@ -273,13 +286,20 @@ pub unsafe extern "C" fn umb_corner_normals_from_faces(
             let options = read_versioned(options)?;
             let corner = Some(wanted(corner, "corner", faces.indices().len())?);
             let mut progress = options.run.callback();
-            let run = options.run.view(progress.as_mut().map(|call| call as _))?;
+            let mut run = options.run.view(progress.as_mut().map(|call| call as _))?;
             let weight = options.asked()?;
-            let cut = CutMesh::new(&faces, &points, &creases, &run)?;
-            corner_normals(&cut, &points, weight, run, &CornerOutputs { corner, ..CornerOutputs::default() })
+            if run.vertices.is_some() {
+                return Err(Error::NotApplicable { what: "corner normals of a list of vertices" });
+            }
+            let cut = run.part(0.0, CUT_SHARE, |run| CutMesh::new(&faces, &points, &creases, run))?;
+            let outputs = CornerOutputs { corner, ..CornerOutputs::default() };
+            run.part(CUT_SHARE, 1.0, |run| corner_normals(&cut, &points, weight, run, &outputs))
         })
     }
 }
+
+/// The part of `umb_corner_normals_from_faces` that goes into cutting, for progress.
+const CUT_SHARE: f64 = 0.8;
 
 /// An output that may not be left out.
 ///
@@ -304,7 +324,12 @@ impl umb_creases {
             (numbers(self.edges, ends, "creases.edges")?, numbers(self.groups, self.group_count, "creases.groups")?)
         };
         let (edges, _) = edges.unwrap_or_default().as_chunks();
-        let angle = if self.angle == 0.0 { DEFAULT_CREASE_ANGLE } else { self.angle };
+        let marked = !edges.is_empty() || groups.is_some();
+        let angle = match self.angle {
+            0.0 if marked => std::f64::consts::PI,
+            0.0 => DEFAULT_CREASE_ANGLE,
+            angle => angle,
+        };
         Ok(Creases { angle, edges, groups })
     }
 }

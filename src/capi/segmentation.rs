@@ -4,12 +4,12 @@ use super::curvature::umb_curvature_options;
 use super::cut::umb_creases;
 use super::guard::guard;
 use super::status::{umb_error, umb_status};
-use super::types::{bytes, umb_faces, umb_points, umb_run, umb_scalars};
+use super::types::{umb_bytes, umb_faces, umb_points, umb_run, umb_scalars};
 use super::versioned::{check_reserved, read_required, read_versioned};
 use crate::error::Error;
 use crate::parts::{
-    DEFAULT_CREASE_ANGLE, RegionOptions, Segmentation, feature_segmentation, region_growing, regions_of_shape,
-    watershed, watershed_of_curvedness,
+    RegionOptions, Segmentation, feature_segmentation, region_growing, regions_of_shape, watershed,
+    watershed_of_curvedness,
 };
 use crate::view::boxed;
 use libc::size_t;
@@ -49,7 +49,7 @@ pub struct umb_watershed_options {
     /// 0
     pub reserved: u32,
     /// Basins that are less deep than this are merged with the neighbour over the lowest pass; in the unit of the height, at most infinity. 0: none
-    /// of a given height; of curvedness, those of less than four times `umb_shape_tolerance`.
+    /// of a given height; of curvedness, those of less than four times `umb_shape_tolerance`, and a tiny number for none.
     pub depth: f64,
     /// The height, at vertices or at faces: low inside segments, high between them. Null for curvedness.
     pub height: *const umb_scalars,
@@ -67,19 +67,18 @@ pub struct umb_region_options {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
-    /// Faces whose normals differ by more than this, in radians, do not grow into each other; 0 stands for pi/6, and from pi on all
-    /// do.
-    pub angle: f64,
-    /// Regions of less than this share of the whole area become part of a neighbour, 0 to 1; 0 stands for 0.0005.
+    /// Regions of less than this share of the whole area become part of a neighbour, 0 to 1; 0 stands for 0.0005, and
+    /// a tiny number merges none.
     pub smallest_share: f64,
-    /// For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`.
+    /// For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`, and a
+    /// tiny number for none.
     pub tolerance: f64,
     /// Regions of fewer faces become part of a neighbour.
     pub smallest_faces: size_t,
-    /// A `UMB_SHAPE_` constant for each vertex, `#V`; null to have them computed.
-    pub classes: *const u8,
-    /// The number of vertices, or 0 if `classes` is null.
-    pub class_count: size_t,
+    /// Where regions do not grow across, read only during the call; null for edges sharper than 30 degrees.
+    pub creases: *const umb_creases,
+    /// A `UMB_SHAPE_` constant for each vertex, `#V`; none to have them computed.
+    pub classes: umb_bytes,
     /// For classes that are not given: how curvatures are computed, `run` aside; null for adaptive jets.
     pub curvature: *const umb_curvature_options,
     /// How to run; `vertices` must be null.
@@ -172,7 +171,7 @@ pub unsafe extern "C" fn umb_segment_watershed(
 
 /// Grows regions of faces by the shape classes of their vertices (see `umb_shape_classes`): flat, cylindrical, spherical and saddle parts,
 /// whether creases bound them or not. Faces whose corners, those on creases aside, are all of one class make regions with neighbours of the same class
-/// across edges within the angle; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
+/// across edges that are no creases; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
 /// part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
 ///
 /// By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
@@ -210,7 +209,7 @@ pub unsafe extern "C" fn umb_segment_regions(
             options.run.check_no_list("umb_region_options", offset_of!(umb_region_options, run))?;
             let defaults = RegionOptions::default();
             let asked = RegionOptions {
-                angle: if options.angle == 0.0 { DEFAULT_CREASE_ANGLE } else { options.angle },
+                creases: read_versioned(options.creases)?.view()?,
                 smallest_faces: options.smallest_faces,
                 smallest_share: match options.smallest_share {
                     0.0 => defaults.smallest_share,
@@ -219,8 +218,8 @@ pub unsafe extern "C" fn umb_segment_regions(
             };
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            if let Some(classes) = bytes(options.classes, options.class_count, "options.classes")? {
-                return hand_out(segmentation, || region_growing(&faces, &points, classes, &asked, run));
+            if let Some(classes) = options.classes.view("options.classes")? {
+                return hand_out(segmentation, || region_growing(&faces, &points, &classes, &asked, run));
             }
             let curvature = read_versioned(options.curvature)?.asked()?;
             let tolerance = (options.tolerance != 0.0).then_some(options.tolerance);

@@ -2,11 +2,10 @@
 
 use super::guard::guard;
 use super::status::{umb_error, umb_status};
-use super::types::{bytes, umb_points, umb_run, umb_scalars, umb_status_output};
+use super::types::{umb_bytes, umb_points, umb_run, umb_scalars, umb_status_output};
 use super::versioned::{check_reserved, read_required, read_versioned};
 use crate::error::Error;
 use crate::parts::{ShapeClass, shape_classes, shape_tolerance};
-use libc::size_t;
 use std::mem::offset_of;
 
 /// Shape class: nothing is known of the curvature.
@@ -44,17 +43,18 @@ pub struct umb_shape_options {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
-    /// H counts as 0 up to this, and K up to its square; 1/length. 0 stands for `umb_shape_tolerance` of `points`.
+    /// H counts as 0 up to this, and K up to its square; 1/length. 0 stands for `umb_shape_tolerance` of `points`; for none take a number that is tiny.
     pub tolerance: f64,
-    /// The status bytes of the curvatures, `#V`: isolated and degenerate vertices are undefined. May be null.
-    pub status: *const u8,
-    /// The number of vertices, or 0 if `status` is null.
-    pub status_count: size_t,
+    /// Positions of which the default tolerance is taken, read only during the call; may be null if `tolerance` is not 0.
+    pub points: *const umb_points,
+    /// The status bytes of the curvatures, as many: isolated and degenerate vertices are undefined. May be none. (Adaptive jets without a
+    /// solution write curvatures of 0 with `UMB_VERTEX_FALLBACK` and without `UMB_VERTEX_CREASE`, which this takes for flat.)
+    pub status: umb_bytes,
     /// How to run; `vertices` must be null.
     pub run: umb_run,
 }
 
-/// A tolerance for `umb_shape_classes` that goes with the size of a mesh: one by the diagonal of the bounding box of all points, so that a
+/// A tolerance for `umb_shape_classes` that goes with the size of a mesh: one by the diagonal of the bounding box of all points (those without faces as well: a stray one far off makes it small), so that a
 /// ball counts as curved up to a radius of the diagonal, and a cylinder up to half of that. 0 if the points are one or none. In 1/length. For
 /// meshes with noise take two to four times as much.
 ///
@@ -92,10 +92,9 @@ pub unsafe extern "C" fn umb_shape_tolerance(
 /// Both comparisons are as if without rounding. Same bits on any number of threads. Koenderink's shape index and curvedness are outputs of
 /// `umb_curvatures`.
 ///
-/// @param points positions, for the default tolerance; may be null if `options->tolerance` is not 0
 /// @param k1 the principal curvatures, in either order
-/// @param k2 likewise, as many
-/// @param options may be null
+/// @param k2 likewise, as many, at the same place
+/// @param options with a tolerance, or with points for the default
 /// @param classes receives a byte for each of `k1`
 /// @param error may be null
 ///
@@ -105,7 +104,6 @@ pub unsafe extern "C" fn umb_shape_tolerance(
 #[unsafe(no_mangle)]
 #[must_use]
 pub unsafe extern "C" fn umb_shape_classes(
-    points: *const umb_points,
     k1: *const umb_scalars,
     k2: *const umb_scalars,
     options: *const umb_shape_options,
@@ -115,20 +113,24 @@ pub unsafe extern "C" fn umb_shape_classes(
     // SAFETY: the header asks of the caller what these ask for.
     unsafe {
         guard(error, || {
-            let (k1, k2) = (read_required(k1, "k1")?.view()?, read_required(k2, "k2")?.view()?);
+            let (k1, k2) = (read_required(k1, "k1")?, read_required(k2, "k2")?);
+            if k1.location != k2.location {
+                return Err(Error::UnknownConstant { what: "k2.location", value: k2.location as u64 });
+            }
+            let (k1, k2) = (k1.view()?, k2.view()?);
             let options = read_versioned(options)?;
             check_reserved("umb_shape_options", offset_of!(umb_shape_options, reserved), options.reserved)?;
             options.run.check_no_list("umb_shape_options", offset_of!(umb_shape_options, run))?;
-            let status = bytes(options.status, options.status_count, "options.status")?;
+            let status = options.status.view("options.status")?;
             let classes = read_required(classes, "classes")?.view(k1.len())?;
             let classes = classes.ok_or(Error::NullPointer { what: "classes.data" })?;
             let tolerance = match options.tolerance {
-                0.0 => shape_tolerance(&read_required(points, "points")?.view()?)?,
+                0.0 => shape_tolerance(&read_required(options.points, "options.points")?.view()?)?,
                 tolerance => tolerance,
             };
             let mut progress = options.run.callback();
             let run = options.run.view(progress.as_mut().map(|call| call as _))?;
-            shape_classes(&k1, &k2, status, tolerance, run, &classes)
+            shape_classes(&k1, &k2, status.as_ref(), tolerance, run, &classes)
         })
     }
 }

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::parallel::Run;
 use crate::parts::ScalarField;
 use crate::simd::Level;
-use crate::view::{Faces, Indices, Output, Points, Scalars, StatusOutput};
+use crate::view::{Bytes, Faces, Indices, Output, Points, Scalars, StatusOutput};
 use libc::{c_int, c_void, size_t};
 use std::mem::offset_of;
 
@@ -131,6 +131,19 @@ pub struct umb_status_output {
     pub stride: size_t,
 }
 
+/// An array of bytes to read: `UMB_VERTEX_` bits or `UMB_SHAPE_` constants, as calls write them. Null `data` and no bytes: there are
+/// none.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct umb_bytes {
+    /// The first byte.
+    pub data: *const u8,
+    /// How many there are.
+    pub count: size_t,
+    /// Bytes from one element to the next; 0 if packed.
+    pub stride: size_t,
+}
+
 /// Called on the calling thread with the fraction done, 0 to 1; non-zero cancels. It must return (no `longjmp`, no
 /// exception).
 pub type umb_progress = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> c_int>;
@@ -180,11 +193,11 @@ versioned! {
     umb_face_outputs: 72, 48;
     umb_creases: 48, 32;
     umb_corner_outputs: 96, 64;
-    umb_moved: 40, 24;
-    umb_shape_options: 72, 48;
+    umb_moved: 48, 28;
+    umb_shape_options: 88, 56;
     umb_feature_options: 56, 36;
     umb_watershed_options: 72, 48;
-    umb_region_options: 104, 72;
+    umb_region_options: 112, 72;
     umb_curvature_options: 120, 88;
     umb_curvature_outputs: 408, 272;
     umb_section_options: 136, 92;
@@ -320,19 +333,18 @@ impl umb_status_output {
     }
 }
 
-/// `count` bytes, or none where `data` is null.
-///
-/// # Safety
-/// `data` is null or points to `count` bytes that stay readable and unchanged for `'a`.
-pub(super) unsafe fn bytes<'a>(data: *const u8, count: usize, what: &'static str) -> Result<Option<&'a [u8]>, Error> {
-    if data.is_null() {
-        return if count == 0 { Ok(None) } else { Err(Error::NullPointer { what }) };
+impl umb_bytes {
+    /// The bytes, if there are any.
+    ///
+    /// # Safety
+    /// The fields describe memory that stays readable and unchanged for `'a`.
+    pub(super) unsafe fn view<'a>(&self, what: &'static str) -> Result<Option<Bytes<'a>>, Error> {
+        if self.data.is_null() && self.count == 0 {
+            return Ok(None);
+        }
+        // SAFETY: handed on.
+        unsafe { Bytes::from_raw(self.data, self.count, self.stride, what) }.map(Some)
     }
-    if count > isize::MAX as usize {
-        return Err(Error::Size { what, found: count as u64, expected: isize::MAX as u64 });
-    }
-    // SAFETY: handed on.
-    Ok(Some(unsafe { std::slice::from_raw_parts(data, count) }))
 }
 
 /// `count` numbers, or none where `data` is null.

@@ -21,7 +21,7 @@ use crate::fit::{JetFit, JetOptions};
 use crate::normals::{AdaptiveOptions, Weight};
 use crate::sweep::{MOST_EXTRA_RINGS, MOST_RINGS};
 use crate::topology::{Topology, closure_by_rings, status};
-use crate::view::Indices;
+use crate::view::{Bytes, Indices};
 
 /// How far the result of a vertex reaches.
 #[derive(Clone, Copy)]
@@ -43,7 +43,7 @@ pub fn affected_normals(
     topology: &Topology,
     moved: &[u32],
     weight: Weight,
-    statuses: Option<&[u8]>,
+    statuses: Option<&Bytes<'_>>,
 ) -> Result<Vec<u32>, Error> {
     within(topology, moved, statuses, of_weight(weight)?)
 }
@@ -57,7 +57,7 @@ pub fn affected_curvatures(
     topology: &Topology,
     moved: &[u32],
     options: &CurvatureOptions<'_>,
-    statuses: Option<&[u8]>,
+    statuses: Option<&Bytes<'_>>,
 ) -> Result<Vec<u32>, Error> {
     within(topology, moved, statuses, of_method(options)?)
 }
@@ -65,11 +65,11 @@ pub fn affected_curvatures(
 fn within(
     topology: &Topology,
     moved: &[u32],
-    statuses: Option<&[u8]>,
+    statuses: Option<&Bytes<'_>>,
     Reach { rings, widened }: Reach,
 ) -> Result<Vec<u32>, Error> {
     Indices::from(moved).check_range("moved", topology.vertex_count())?;
-    if let Some(found) = statuses.map(<[u8]>::len).filter(|&found| found != topology.vertex_count()) {
+    if let Some(found) = statuses.map(Bytes::len).filter(|&found| found != topology.vertex_count()) {
         let expected = topology.vertex_count() as u64;
         return Err(Error::Size { what: "statuses", found: found as u64, expected });
     }
@@ -77,7 +77,7 @@ fn within(
     if let Some(statuses) = statuses {
         let mut count = always;
         for place in always..found.len() {
-            if statuses[found[place] as usize] & status::WIDENED != 0 {
+            if statuses.get(found[place] as usize) & status::WIDENED != 0 {
                 found[count] = found[place];
                 count += 1;
             }
@@ -85,6 +85,11 @@ fn within(
         found.truncate(count);
     }
     Ok(found)
+}
+
+/// Within how many rings of a vertex its normal looks at positions, widened or not; none if it looks at all of them.
+pub(super) fn reach(weight: Weight) -> Option<usize> {
+    of_weight(weight).ok().map(|reach| reach.rings + reach.widened)
 }
 
 fn of_weight(weight: Weight) -> Result<Reach, Error> {

@@ -1,16 +1,19 @@
 //! Corner normals: a unit normal for each corner of each face, smooth within a run of faces around a vertex and split at creases.
 //!
 //! They are the vertex normals of the [`CutMesh`], with any weight: an open run of faces counts as one at a boundary does. Where nothing
-//! is cut they are the vertex normals themselves, to the bit. With [`Weight::Angle`] they are what Blender shows for marked sharp edges and what
+//! is cut they are the vertex normals themselves, to the bit if all outputs are of one scalar. With [`Weight::Angle`] they are what Blender shows for marked sharp edges and what
 //! tools that bake for MikkTSpace expect: MikkTSpace computes tangents, and takes normals like these as given.
 //!
-//! Cost: that of the vertex normals, and a copy of positions and of results.
+//! Cost: that of the vertex normals, and a copy of positions and of results; of a list, of what it needs.
 
+use super::affected::reach;
 use super::cut::CutMesh;
+use super::face_graph::report_end;
 use crate::error::Error;
 use crate::normals::{NormalOutputs, Weight, vertex_normals};
 use crate::parallel::{Run, for_each_chunk};
 use crate::simd::Real;
+use crate::topology::closure;
 use crate::view::{Output, Points, StatusOutput, zeroed};
 
 /// Where the results of [`corner_normals`] go; all are optional.
@@ -46,11 +49,11 @@ pub fn corner_normals(
     }
     let found = if points.is_double() {
         let mut positions: Vec<[f64; 3]> = zeroed(cut.origins().len())?;
-        cut.copy(points, &positions.as_mut_slice().into())?;
+        copy(cut, points, weight, run.vertices, &positions.as_mut_slice().into())?;
         at_cut_vertices(cut, &positions[..].into(), weight, run, outputs)
     } else {
         let mut positions: Vec<[f32; 3]> = zeroed(cut.origins().len())?;
-        cut.copy(points, &positions.as_mut_slice().into())?;
+        copy(cut, points, weight, run.vertices, &positions.as_mut_slice().into())?;
         at_cut_vertices(cut, &positions[..].into(), weight, run, outputs)
     };
     found.map_err(|error| match error {
@@ -59,6 +62,29 @@ pub fn corner_normals(
         }
         other => other,
     })
+}
+
+/// The positions that the normals of a list need, or all.
+fn copy(
+    cut: &CutMesh,
+    points: &Points<'_>,
+    weight: Weight,
+    list: Option<&[u32]>,
+    positions: &Output<'_>,
+) -> Result<(), Error> {
+    match (list, reach(weight)) {
+        (Some(list), Some(rings)) => {
+            cut.check_counts(points, positions)?;
+            // A list with a vertex that is none is refused where the normals are computed.
+            if list.iter().all(|&vertex| (vertex as usize) < positions.len()) {
+                for vertex in closure(cut.topology(), list, rings)? {
+                    positions.copy(vertex as usize, points.get(cut.origins()[vertex as usize] as usize).to_array());
+                }
+            }
+            Ok(())
+        }
+        _ => cut.copy(points, positions),
+    }
 }
 
 fn at_cut_vertices(
@@ -116,6 +142,10 @@ where
         }
     }
     let (normals, corners) = (&*normals, cut.corners());
+    if corners.is_empty() {
+        report_end(&mut run);
+        return Ok(());
+    }
     run.part(SHARE, 1.0, |mut run| {
         for_each_chunk(&mut run, corners.len().div_ceil(CHUNK), |claims| {
             while let Some(chunk) = claims.next() {

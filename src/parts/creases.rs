@@ -1,7 +1,8 @@
 //! Which edges of a mesh are creases: by the angle between their faces, marked by the caller, or between smoothing groups.
 //!
 //! Any of the three makes an edge a crease. An edge with one face, or with more than two, or whose two faces run through it in the same
-//! direction, separates its faces in any case and is not asked about. A face without area has no normal, and no edge of it is sharp.
+//! direction, separates its faces in any case and is not asked about. A face without area has the normal of a neighbour across its longest
+//! edge (`face_graph.rs`): else a sliver along a crease would join its sides.
 //!
 //! Numerical notes: unit normals are those of [`face_normals`](crate::face_normals), in `f64` and to its last digits; angles are compared by
 //! the chord between the normals, which keeps its digits where the angle is small; equal to 1e-12 of its square is
@@ -38,7 +39,13 @@ impl Default for Creases<'_> {
 }
 
 impl Creases<'_> {
-    /// For each corner, 1 if the edge that starts there is a crease; 0 where its face meets no other across it.
+    /// Whether angles are compared, for which [`Creases::find`] takes normals.
+    pub(crate) fn asks_for_angles(&self) -> bool {
+        self.angle < std::f64::consts::PI
+    }
+
+    /// For each corner, 1 if the edge that starts there is a crease; 0 where its face meets no other across it. `normals` are those
+    /// of the faces.
     ///
     /// # Errors
     /// [`Error::OptionOutOfRange`] for an angle that is negative or no number; [`Error::Size`] for groups of another number
@@ -46,10 +53,10 @@ impl Creases<'_> {
     pub(crate) fn find(
         &self,
         faces: &Faces<'_>,
-        points: &Points<'_>,
+        vertex_count: usize,
         adjacency: &Adjacency,
         face_of: &[u32],
-        threads: usize,
+        normals: &[DVec3],
     ) -> Result<Vec<u8>, Error> {
         if self.angle.is_nan() || self.angle < 0.0 {
             return Err(Error::OptionOutOfRange { what: "creases.angle" });
@@ -61,10 +68,9 @@ impl Creases<'_> {
                 expected: faces.len() as u64,
             });
         }
-        Indices::from(self.edges.as_flattened()).check_range("creases.edges", points.len())?;
+        Indices::from(self.edges.as_flattened()).check_range("creases.edges", vertex_count)?;
         let mut creases: Vec<u8> = zeroed(face_of.len())?;
-        if self.angle < std::f64::consts::PI {
-            let normals = unit_normals(faces, points, threads)?;
+        if self.asks_for_angles() {
             let sharp = Sharp::than(self.angle);
             mark(&mut creases, adjacency, |corner, other| {
                 sharp.is_between(normals[face_of[corner] as usize], normals[face_of[other] as usize])

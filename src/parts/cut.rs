@@ -10,10 +10,11 @@
 //! Cut vertices are numbered by their original vertex, at each by the smallest of their corners; a vertex without faces keeps one. So
 //! where nothing is cut, the numbers stay what they are.
 //!
-//! Cost: linear in the number of corners, apart from sorting at vertices with many. Held, besides the topology: 4 bytes a corner and a
-//! cut vertex.
+//! Cost: linear in the number of corners, apart from sorting at vertices with many. Held, besides the topology: 4 bytes a corner, a cut vertex and
+//! a vertex.
 
 use super::creases::{Creases, faces_of_corners};
+use super::face_graph::{report, report_end, whole_normals};
 use super::sets::Sets;
 use crate::error::Error;
 use crate::parallel::Run;
@@ -24,29 +25,43 @@ use crate::view::{Faces, Index, Output, Points, room, with_indices, zeroed};
 #[derive(Debug)]
 pub struct CutMesh {
     topology: Topology,
-    /// How many vertices the mesh had.
-    vertex_count: usize,
     corners: Vec<u32>,
     origins: Vec<u32>,
+    starts: Vec<u32>,
 }
 
 impl CutMesh {
-    /// Cuts `faces` along `creases`, where `points` are. Of `run`, threads and level count.
+    /// Cuts `faces` along `creases`, where `points` are. [`Run::vertices`] is ignored.
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`], also for a vertex of a marked edge; [`Error::NonFinitePosition`]; [`Error::OptionOutOfRange`];
     /// [`Error::Size`]; [`Error::TooLarge`]; [`Error::OutOfMemory`].
-    pub fn new(faces: &Faces<'_>, points: &Points<'_>, creases: &Creases<'_>, run: &Run<'_>) -> Result<Self, Error> {
+    pub fn new(
+        faces: &Faces<'_>,
+        points: &Points<'_>,
+        creases: &Creases<'_>,
+        mut run: Run<'_>,
+    ) -> Result<Self, Error> {
+        report(&mut run, 0.0)?;
         let adjacency = Adjacency::new(faces, points.len())?;
         points.check_finite()?;
         let face_of = faces_of_corners(faces)?;
-        let marked = creases.find(faces, points, &adjacency, &face_of, run.threads)?;
-        let (corners, origins) = with_indices!(faces.indices(), indices => {
+        report(&mut run, 0.3)?;
+        let mut normals = Vec::new();
+        if creases.asks_for_angles() {
+            normals = whole_normals(faces, points, &adjacency, &face_of, run.threads)?;
+        }
+        let marked = creases.find(faces, points.len(), &adjacency, &face_of, &normals)?;
+        drop(normals);
+        report(&mut run, 0.6)?;
+        let Numbers { corners, origins, starts } = with_indices!(faces.indices(), indices => {
             number(faces, indices, points.len(), &adjacency, &marked, &face_of)
         })?;
         drop((adjacency, marked, face_of));
+        report(&mut run, 0.9)?;
         let topology = Topology::with_threads(&faces.with_indices(&corners), origins.len(), run.threads, run.level)?;
-        Ok(CutMesh { topology, vertex_count: points.len(), corners, origins })
+        report_end(&mut run);
+        Ok(CutMesh { topology, corners, origins, starts })
     }
 
     /// The one-rings of the cut mesh.
@@ -64,26 +79,50 @@ impl CutMesh {
         &self.origins
     }
 
-    /// Copies an element for each original vertex to each cut vertex that comes from it.
+    /// Where the cut vertices of each original vertex start, `#V + 1`: those of vertex `v` are the numbers from `starts[v]` up to
+    /// `starts[v + 1]`.
+    pub fn starts(&self) -> &[u32] {
+        &self.starts
+    }
+
+    /// Copies an element for each original vertex to each cut vertex that comes from it. A number beyond the range of the output's scalar
+    /// becomes its largest; what is not finite stays so.
     ///
     /// # Errors
     /// [`Error::Size`] where counts do not fit.
     pub fn copy(&self, points: &Points<'_>, output: &Output<'_>) -> Result<(), Error> {
-        let sizes =
-            [("points.count", points.len(), self.vertex_count), ("output.count", output.len(), self.origins.len())];
+        self.check_counts(points, output)?;
+        for (place, &vertex) in self.origins.iter().enumerate() {
+            output.copy(place, points.get(vertex as usize).to_array());
+        }
+        Ok(())
+    }
+
+    /// Refuses other numbers of points than original vertices, and of elements than cut vertices.
+    pub(super) fn check_counts(&self, points: &Points<'_>, output: &Output<'_>) -> Result<(), Error> {
+        let sizes = [
+            ("points.count", points.len(), self.starts.len() - 1),
+            ("output.count", output.len(), self.origins.len()),
+        ];
         for (what, found, expected) in sizes {
             if found != expected {
                 return Err(Error::Size { what, found: found as u64, expected: expected as u64 });
             }
         }
-        for (place, &vertex) in self.origins.iter().enumerate() {
-            output.write(place, points.get(vertex as usize).to_array());
-        }
         Ok(())
     }
 }
 
-/// The cut vertex of each corner, and the original of each cut vertex.
+/// How the vertices of a cut mesh are numbered.
+struct Numbers {
+    /// The cut vertex of each corner.
+    corners: Vec<u32>,
+    /// The original of each cut vertex.
+    origins: Vec<u32>,
+    /// Where those of each original start, and the end of the last.
+    starts: Vec<u32>,
+}
+
 fn number<I: Index>(
     faces: &Faces<'_>,
     indices: &[I],
@@ -91,7 +130,7 @@ fn number<I: Index>(
     adjacency: &Adjacency,
     creases: &[u8],
     face_of: &[u32],
-) -> Result<(Vec<u32>, Vec<u32>), Error> {
+) -> Result<Numbers, Error> {
     let vertex = |corner: usize| indices[corner].widen() as usize;
     let counts = |face: usize| has_three_corners(&indices[faces.range(face)]);
     let mut sets = Sets::new(indices.len())?;
@@ -142,5 +181,5 @@ fn number<I: Index>(
             };
         }
     }
-    Ok((numbers, origins))
+    Ok(Numbers { corners: numbers, origins, starts })
 }

@@ -1,6 +1,6 @@
 //! Faces as the nodes of a graph, joined where they meet across an edge, and what segmentations need to know of each.
 
-use super::creases::{Sharp, faces_of_corners, unit_normals};
+use super::creases::{faces_of_corners, unit_normals};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::topology::{Adjacency, NO_CORNER, has_three_corners};
@@ -80,15 +80,14 @@ impl<'a> FaceGraph<'a> {
         with_indices!(self.faces.indices(), indices => [indices[corner], indices[next]].map(|index| index.widen() as u32))
     }
 
-    /// Unit normals of faces. One that has no area takes the normal of a neighbour, across its longest edge to one that has a
-    /// normal by then, as if it were a fold of it: so it separates nothing, and joins nothing that its neighbours do not.
-    pub fn normals(&self, points: &Points<'_>, threads: usize) -> Result<Vec<DVec3>, Error> {
-        let mut normals = unit_normals(self.faces, points, threads)?;
+    /// Gives faces without normal that of a neighbour, across the longest edge to one that has a normal by then, as if they were folds of
+    /// it: so they separate nothing, and join nothing that their neighbours do not.
+    fn complete(&self, points: &Points<'_>, normals: &mut [DVec3]) -> Result<(), Error> {
         let lacks =
             |normals: &[DVec3], face: u32| self.is_used(face as usize) && normals[face as usize] == DVec3::ZERO;
         // Faces to look at next, all at the same number of steps from those with a normal.
         let mut front: Vec<u32> = Vec::new();
-        for face in (0..self.faces.len() as u32).filter(|&face| lacks(&normals, face)) {
+        for face in (0..self.faces.len() as u32).filter(|&face| lacks(normals, face)) {
             if self.neighbours(face as usize).any(|other| normals[other as usize] != DVec3::ZERO) {
                 front.try_reserve(1)?;
                 front.push(face);
@@ -98,13 +97,13 @@ impl<'a> FaceGraph<'a> {
         while !front.is_empty() {
             found.clear();
             found.try_reserve(front.len())?;
-            found.extend(front.iter().map(|&face| self.across_longest(face as usize, points, &normals)));
+            found.extend(front.iter().map(|&face| self.across_longest(face as usize, points, normals)));
             for (&face, &normal) in front.iter().zip(&found) {
                 normals[face as usize] = normal;
             }
             let mut next: Vec<u32> = Vec::new();
             for other in front.iter().flat_map(|&face| self.neighbours(face as usize)) {
-                if lacks(&normals, other) {
+                if lacks(normals, other) {
                     next.try_reserve(1)?;
                     next.push(other);
                 }
@@ -113,7 +112,7 @@ impl<'a> FaceGraph<'a> {
             next.dedup();
             front = next;
         }
-        Ok(normals)
+        Ok(())
     }
 
     /// The normal of the face across the longest edge that has one; at the same length the first.
@@ -133,6 +132,21 @@ impl<'a> FaceGraph<'a> {
     }
 }
 
+/// Unit normals of faces; one without area has that of a neighbour, if it has any.
+pub(super) fn whole_normals(
+    faces: &Faces<'_>,
+    points: &Points<'_>,
+    adjacency: &Adjacency,
+    face_of: &[u32],
+    threads: usize,
+) -> Result<Vec<DVec3>, Error> {
+    let mut normals = unit_normals(faces, points, threads)?;
+    if normals.contains(&DVec3::ZERO) {
+        FaceGraph::with(faces, adjacency, face_of)?.complete(points, &mut normals)?;
+    }
+    Ok(normals)
+}
+
 /// The length of an edge in `unit`s; infinite beyond the range.
 pub(super) fn edge_length(points: &Points<'_>, [a, b]: [u32; 2], unit: f64) -> f64 {
     (points.get(a as usize) * unit - points.get(b as usize) * unit).length()
@@ -142,14 +156,6 @@ pub(super) fn edge_length(points: &Points<'_>, [a, b]: [u32; 2], unit: f64) -> f
 #[inline(always)]
 pub(super) fn deviation(a: DVec3, b: DVec3) -> f64 {
     if a == DVec3::ZERO || b == DVec3::ZERO { 0.0 } else { (a - b).length_squared() }
-}
-
-/// [`Sharp`] for an angle in radians.
-///
-/// # Errors
-/// [`Error::OptionOutOfRange`] if it is negative or no number.
-pub(super) fn sharp_beyond(angle: f64) -> Result<Sharp, Error> {
-    if angle >= 0.0 { Ok(Sharp::than(angle)) } else { Err(Error::OptionOutOfRange { what: "angle" }) }
 }
 
 /// Tells the caller how far a call has come.

@@ -4,14 +4,13 @@
 //! creases, found with disjoint sets (B. A. Galler, M. J. Fisher, "An improved equivalence algorithm", Communications of the ACM 7 (1964)).
 //! So a crease that ends inside a smooth part separates nothing.
 //!
-//! Faces that do not meet (an edge with one face, with more than two, or with two of the same direction) are not joined there. A face without
-//! area has no normal; since it would join the two sides of any crease that it lies on, it is given that of a neighbour, and its edges are
-//! creases where the angle between the normals so completed is too large.
+//! Faces that do not meet (an edge with one face, with more than two, or with two of the same direction) are not joined there.
 //!
-//! Numerical notes: angles are those of [`Creases`]. Cost: linear in the number of corners but for the inverse Ackermann function.
+//! Numerical notes: angles are those of [`Creases`], with what these say of faces without area. Cost: next to linear in the number of
+//! corners (`sets.rs`).
 
 use super::creases::{Creases, faces_of_corners};
-use super::face_graph::{FaceGraph, report, report_end, sharp_beyond};
+use super::face_graph::{FaceGraph, report, report_end, whole_normals};
 use super::segmentation::Segmentation;
 use super::sets::Sets;
 use crate::error::Error;
@@ -30,28 +29,27 @@ pub fn feature_segmentation(
     creases: &Creases<'_>,
     mut run: Run<'_>,
 ) -> Result<Segmentation, Error> {
-    let sharp = sharp_beyond(creases.angle)?;
     report(&mut run, 0.0)?;
     let adjacency = Adjacency::new(faces, points.len())?;
     points.check_finite()?;
     let face_of = faces_of_corners(faces)?;
     report(&mut run, 0.3)?;
-    let marked = creases.find(faces, points, &adjacency, &face_of, run.threads)?;
-    let graph = FaceGraph::with(faces, &adjacency, &face_of)?;
-    drop((adjacency, face_of));
+    let mut normals = Vec::new();
+    if creases.asks_for_angles() {
+        normals = whole_normals(faces, points, &adjacency, &face_of, run.threads)?;
+    }
     report(&mut run, 0.6)?;
-    let normals = graph.normals(points, run.threads)?;
+    let marked = creases.find(faces, points.len(), &adjacency, &face_of, &normals)?;
+    let graph = FaceGraph::with(faces, &adjacency, &face_of)?;
+    drop((adjacency, face_of, normals));
     report(&mut run, 0.8)?;
     let mut sets = Sets::new(faces.len())?;
     graph.for_each_edge(|corner, face, other| {
-        let smooth = marked[corner] == 0
-            && (creases.angle >= std::f64::consts::PI
-                || !sharp.is_between(normals[face as usize], normals[other as usize]));
-        if smooth {
+        if marked[corner] == 0 {
             sets.join(face, other);
         }
     });
-    drop((marked, normals));
+    drop(marked);
     let found = Segmentation::new(&graph, points.len(), |face| sets.root(face as u32))?;
     report_end(&mut run);
     Ok(found)

@@ -21,7 +21,10 @@ mod small_regions;
 mod watershed;
 
 pub use affected::{affected_curvatures, affected_normals};
-pub use by_curvature::{CURVEDNESS_DEPTH, REGION_TOLERANCE, regions_of_shape, watershed_of_curvedness};
+pub use by_curvature::{
+    CURVEDNESS_DEPTH, REGION_TOLERANCE, curvedness_depth, fill_unknown, has_curvature, region_tolerance,
+    regions_of_shape, watershed_of_curvedness,
+};
 pub use corner_normals::{CornerOutputs, corner_normals};
 pub use creases::{Creases, DEFAULT_CREASE_ANGLE};
 pub use cut::CutMesh;

@@ -3,11 +3,11 @@
 //! References: P. J. Besl, R. C. Jain, "Segmentation through variable-order surface fitting", IEEE Transactions on Pattern Analysis and
 //! Machine Intelligence 10 (1988); R. Adams, L. Bischof, "Seeded region growing", the same 16 (1994).
 //!
-//! Input is any mesh with a [`ShapeClass`] at each vertex. A vertex on a crease, an edge whose faces differ by more than the angle, tells nothing of
+//! Input is any mesh with a [`ShapeClass`] at each vertex. A vertex on a crease ([`Creases`]) tells nothing of
 //! the surface beside it. A face whose other corners are all of one class is sure of it and makes seeds: sure faces of the same class that
-//! meet smoothly (their normals differ by at most the angle) are one region. The others lie between parts, where a curvature is a mixture: those are added
-//! to the regions in the order of how little their normal differs from that of a neighbour that has one, over edges within the
-//! angle. Without this order a flat face with two corners on the edge of a fillet would go with the fillet.
+//! meet across an edge that is no crease are one region. The others lie between parts, where a curvature is a mixture: those are added
+//! to the regions in the order of how little their normal differs from that of a neighbour that has one, over edges that are no
+//! creases. Without this order a flat face with two corners on the edge of a fillet would go with the fillet.
 //! What no sure face reaches makes regions of its own, of the class that most of its corners have (of several the one with the smallest number).
 //! Then regions that are too small become part of a neighbour, smooth ones and those of the same class first.
 //!
@@ -21,33 +21,34 @@
 //!
 //! A face without area takes the normal of a neighbour. Numerical notes: angles are compared by the chord between unit normals; normals,
 //! lengths and areas are in `f64`. All ties are broken by the index of the face. Cost: O(n log n) for the faces that are not sure and the regions that are too small; the rest is
-//! linear but for the inverse Ackermann function.
+//! next to linear (`sets.rs`).
 
-use super::creases::DEFAULT_CREASE_ANGLE;
-use super::face_graph::{FaceGraph, deviation, edge_length, report, report_end, sharp_beyond};
+use super::creases::{Creases, faces_of_corners};
+use super::face_graph::{FaceGraph, deviation, edge_length, report, report_end, whole_normals};
 use super::segmentation::{NO_SEGMENT, Segmentation, face_areas, unit_of};
 use super::sets::Sets;
 use super::shape::ShapeClass;
 use super::small_regions::{Borders, Regions, Smallest, merge_small};
 use crate::error::Error;
 use crate::parallel::Run;
-use crate::view::{Faces, Index, Points, filled, with_indices, zeroed};
+use crate::topology::Adjacency;
+use crate::view::{Bytes, Faces, Index, Points, filled, with_indices, zeroed};
 
 /// How regions grow.
 #[derive(Clone, Copy, Debug)]
-pub struct RegionOptions {
-    /// Faces whose normals differ by more than this, in radians, do not grow into each other; from π on all do.
-    pub angle: f64,
+pub struct RegionOptions<'a> {
+    /// Faces do not grow into each other across a crease.
+    pub creases: Creases<'a>,
     /// Regions of fewer faces become part of a neighbour.
     pub smallest_faces: usize,
     /// Regions of less than this share of the whole area become part of a neighbour.
     pub smallest_share: f64,
 }
 
-impl Default for RegionOptions {
-    /// 30°, and 0.05 % of the area.
+impl Default for RegionOptions<'_> {
+    /// Creases of 30°, and 0.05 % of the area.
     fn default() -> Self {
-        RegionOptions { angle: DEFAULT_CREASE_ANGLE, smallest_faces: 0, smallest_share: 0.0005 }
+        RegionOptions { creases: Creases::default(), smallest_faces: 0, smallest_share: 0.0005 }
     }
 }
 
@@ -60,11 +61,10 @@ impl Default for RegionOptions {
 pub fn region_growing(
     faces: &Faces<'_>,
     points: &Points<'_>,
-    classes: &[u8],
-    options: &RegionOptions,
+    classes: &Bytes<'_>,
+    options: &RegionOptions<'_>,
     mut run: Run<'_>,
 ) -> Result<Segmentation, Error> {
-    let sharp = sharp_beyond(options.angle)?;
     if !(0.0..=1.0).contains(&options.smallest_share) {
         return Err(Error::OptionOutOfRange { what: "smallest_share" });
     }
@@ -72,21 +72,23 @@ pub fn region_growing(
         let (found, expected) = (classes.len() as u64, points.len() as u64);
         return Err(Error::Size { what: "classes.count", found, expected });
     }
-    if let Some(&class) = classes.iter().find(|&&class| class as usize >= CLASSES) {
+    if let Some(class) = classes.iter().find(|&class| class as usize >= CLASSES) {
         return Err(Error::UnknownConstant { what: "classes", value: class as u64 });
     }
     report(&mut run, 0.0)?;
-    let graph = FaceGraph::new(faces, points.len())?;
-    report(&mut run, 0.3)?;
+    let adjacency = Adjacency::new(faces, points.len())?;
     points.check_finite()?;
-    let normals = graph.normals(points, run.threads)?;
+    let face_of = faces_of_corners(faces)?;
+    report(&mut run, 0.3)?;
+    let normals = whole_normals(faces, points, &adjacency, &face_of, run.threads)?;
+    let marked = options.creases.find(faces, points.len(), &adjacency, &face_of, &normals)?;
+    let graph = FaceGraph::with(faces, &adjacency, &face_of)?;
+    drop((adjacency, face_of));
     report(&mut run, 0.5)?;
-    let smooth = |a: u32, b: u32| {
-        options.angle >= std::f64::consts::PI || !sharp.is_between(normals[a as usize], normals[b as usize])
-    };
+    let smooth = |corner: usize| marked[corner] == 0;
     let mut known = filled(points.len(), 1u8)?;
-    graph.for_each_edge(|corner, face, other| {
-        if !smooth(face, other) {
+    graph.for_each_edge(|corner, face, _| {
+        if !smooth(corner) {
             for vertex in graph.ends(corner, face as usize) {
                 known[vertex as usize] = 0;
             }
@@ -99,9 +101,9 @@ pub fn region_growing(
     // How far apart the faces are, and the faces, of edges at a face that is not sure.
     let mut open: Vec<(u64, u32, u32)> = Vec::new();
     let mut full = Ok(());
-    graph.for_each_edge(|_, face, other| {
+    graph.for_each_edge(|corner, face, other| {
         let (one, two) = (votes[face as usize], votes[other as usize]);
-        if !smooth(face, other) {
+        if !smooth(corner) {
             return;
         }
         if one.sure && two.sure {
@@ -161,7 +163,7 @@ pub fn region_growing(
         let (a, b) = (region_of[face as usize], region_of[other as usize]);
         if a != b {
             let length = edge_length(points, graph.ends(corner, face as usize), unit);
-            borders.add(a, b, length, smooth(face, other));
+            borders.add(a, b, length, smooth(corner));
         }
     });
     let mut merged = merge_small(regions, borders, &smallest)?;
@@ -184,18 +186,23 @@ struct Vote {
 
 /// The class that most corners of each face have, but for those that know of none; of several the one with the smallest number. Corners on
 /// creases, which are not `known`, count where there are no others.
-fn votes<I: Index>(graph: &FaceGraph<'_>, indices: &[I], classes: &[u8], known: &[u8]) -> Result<Vec<Vote>, Error> {
+fn votes<I: Index>(
+    graph: &FaceGraph<'_>,
+    indices: &[I],
+    classes: &Bytes<'_>,
+    known: &[u8],
+) -> Result<Vec<Vote>, Error> {
     let mut votes = filled(graph.faces.len(), Vote::default())?;
     for (face, vote) in votes.iter_mut().enumerate().filter(|(face, _)| graph.is_used(*face)) {
         let corners = &indices[graph.faces.range(face)];
         let mut counts = [0u32; CLASSES];
         let mut count = 0;
         for corner in corners.iter().map(|corner| corner.widen() as usize).filter(|&corner| known[corner] != 0) {
-            counts[classes[corner] as usize] += 1;
+            counts[classes.get(corner) as usize] += 1;
             count += 1;
         }
         if count == 0 {
-            corners.iter().for_each(|corner| counts[classes[corner.widen() as usize] as usize] += 1);
+            corners.iter().for_each(|corner| counts[classes.get(corner.widen() as usize) as usize] += 1);
         }
         let class = most(&counts);
         *vote = Vote { class, sure: class != ShapeClass::Undefined as u8 && counts[class as usize] == count };

@@ -1,4 +1,7 @@
 //! Disjoint sets of numbers, each set told by its smallest.
+//!
+//! Paths are halved, and sets joined by their smallest number instead of their size, so that the name of a set follows from what is in it:
+//! O(log n) a step at worst, amortised, and next to constant where neighbours have near numbers.
 
 use crate::error::Error;
 use crate::view::room;

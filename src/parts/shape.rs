@@ -20,7 +20,7 @@
 use crate::error::Error;
 use crate::parallel::{Run, for_each_chunk};
 use crate::topology::status;
-use crate::view::{Points, Scalars, StatusOutput};
+use crate::view::{Bytes, Points, Scalars, StatusOutput};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -132,7 +132,7 @@ pub fn shape_tolerance(points: &Points<'_>) -> Result<f64, Error> {
 pub fn shape_classes(
     k1: &Scalars<'_>,
     k2: &Scalars<'_>,
-    status: Option<&[u8]>,
+    status: Option<&Bytes<'_>>,
     tolerance: f64,
     mut run: Run<'_>,
     classes: &StatusOutput<'_>,
@@ -142,7 +142,7 @@ pub fn shape_classes(
         return Err(Error::OptionOutOfRange { what: "tolerance" });
     }
     let count = k1.len();
-    for (what, found) in [("status.count", status.map(<[u8]>::len)), ("classes.count", Some(classes.len()))] {
+    for (what, found) in [("status.count", status.map(Bytes::len)), ("classes.count", Some(classes.len()))] {
         if let Some(found) = found.filter(|&found| found != count) {
             return Err(Error::Size { what, found: found as u64, expected: count as u64 });
         }
@@ -152,7 +152,8 @@ pub fn shape_classes(
     for_each_chunk(&mut run, count.div_ceil(CHUNK), |claims| {
         while let Some(chunk) = claims.next() {
             for vertex in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
-                let unknown = status.is_some_and(|bits| bits[vertex] & (status::ISOLATED | status::DEGENERATE) != 0);
+                let unknown =
+                    status.is_some_and(|bits| bits.get(vertex) & (status::ISOLATED | status::DEGENERATE) != 0);
                 let class = match unknown {
                     true => ShapeClass::Undefined,
                     false => ShapeClass::of(k1.get(vertex), k2.get(vertex), tolerance),

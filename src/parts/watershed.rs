@@ -16,8 +16,8 @@
 //! All ties are broken by the index of the face, so results depend neither on threads nor on the numbers of vertices.
 //!
 //! Numerical notes: heights are only compared, and subtracted once for each meeting. The mean of equal numbers is that number. Faces that
-//! do not meet are no neighbours, whatever their heights. Cost: O(n log n) for sorting the faces; the rest is linear but for the
-//! inverse Ackermann function.
+//! do not meet are no neighbours, whatever their heights. Cost: O(n log n) for sorting the faces; the rest is next to linear
+//! (`sets.rs`).
 
 use super::face_graph::{FaceGraph, NO_FACE, report, report_end};
 use super::scalar_field::ScalarField;

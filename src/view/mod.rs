@@ -5,6 +5,7 @@
 //! leaves it is checked once (alignment, strides, index ranges) and safe from then on. What the library asks of the system
 //! itself (huge pages, threads, the number of cores) is here for the same reason.
 
+mod bytes;
 mod cores;
 mod faces;
 mod memory;
@@ -17,6 +18,7 @@ mod scalars;
 mod slots;
 mod threads;
 
+pub use bytes::Bytes;
 pub(crate) use cores::core_count;
 pub use faces::{Faces, IndexArray, Indices};
 pub(crate) use faces::{Index, with_indices};

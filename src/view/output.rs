@@ -91,6 +91,18 @@ impl<'a, const N: usize> Output<'a, N> {
         }
     }
 
+    /// As [`Output::write`], but what is not finite stays as it is.
+    #[inline(always)]
+    pub(crate) fn copy(&self, index: usize, value: [f64; N]) {
+        if self.double {
+            self.write_double(index, value);
+        } else {
+            let single =
+                |x: f64| if x.is_finite() { x.clamp(-f32::MAX as f64, f32::MAX as f64) as f32 } else { x as f32 };
+            self.write_single(index, value.map(single));
+        }
+    }
+
     /// Writes element after element, from `first` on, the rows that `index` names; none of them is beyond the scalar's range.
     pub(crate) fn write_rows<S: Real>(&self, first: usize, rows: &[[S; N]], index: &[u32]) {
         if self.double {

@@ -16,6 +16,11 @@ OFFSET(umb_adaptive_model, evidence, 64);
 OFFSET(umb_adaptive_model, sample, 80);
 OFFSET(umb_adaptive_model, reserved, 84);
 
+SIZE(umb_bytes, 24);
+OFFSET(umb_bytes, data, 0);
+OFFSET(umb_bytes, count, 8);
+OFFSET(umb_bytes, stride, 16);
+
 SIZE(umb_corner_outputs, 96);
 OFFSET(umb_corner_outputs, struct_size, 0);
 OFFSET(umb_corner_outputs, reserved, 4);
@@ -107,13 +112,12 @@ OFFSET(umb_feature_options, reserved, 4);
 OFFSET(umb_feature_options, creases, 8);
 OFFSET(umb_feature_options, run, 16);
 
-SIZE(umb_moved, 40);
+SIZE(umb_moved, 48);
 OFFSET(umb_moved, struct_size, 0);
 OFFSET(umb_moved, reserved, 4);
 OFFSET(umb_moved, vertices, 8);
 OFFSET(umb_moved, vertex_count, 16);
 OFFSET(umb_moved, status, 24);
-OFFSET(umb_moved, status_count, 32);
 
 SIZE(umb_normal_options, 64);
 OFFSET(umb_normal_options, struct_size, 0);
@@ -166,17 +170,16 @@ OFFSET(umb_polyline_outputs, length_parabola, 56);
 OFFSET(umb_polyline_outputs, symmetric_parabola, 80);
 OFFSET(umb_polyline_outputs, status, 104);
 
-SIZE(umb_region_options, 104);
+SIZE(umb_region_options, 112);
 OFFSET(umb_region_options, struct_size, 0);
 OFFSET(umb_region_options, reserved, 4);
-OFFSET(umb_region_options, angle, 8);
-OFFSET(umb_region_options, smallest_share, 16);
-OFFSET(umb_region_options, tolerance, 24);
-OFFSET(umb_region_options, smallest_faces, 32);
+OFFSET(umb_region_options, smallest_share, 8);
+OFFSET(umb_region_options, tolerance, 16);
+OFFSET(umb_region_options, smallest_faces, 24);
+OFFSET(umb_region_options, creases, 32);
 OFFSET(umb_region_options, classes, 40);
-OFFSET(umb_region_options, class_count, 48);
-OFFSET(umb_region_options, curvature, 56);
-OFFSET(umb_region_options, run, 64);
+OFFSET(umb_region_options, curvature, 64);
+OFFSET(umb_region_options, run, 72);
 
 SIZE(umb_run, 40);
 OFFSET(umb_run, threads, 0);
@@ -212,13 +215,13 @@ OFFSET(umb_section_outputs, curvature, 8);
 OFFSET(umb_section_outputs, status, 32);
 OFFSET(umb_section_outputs, normal, 48);
 
-SIZE(umb_shape_options, 72);
+SIZE(umb_shape_options, 88);
 OFFSET(umb_shape_options, struct_size, 0);
 OFFSET(umb_shape_options, reserved, 4);
 OFFSET(umb_shape_options, tolerance, 8);
-OFFSET(umb_shape_options, status, 16);
-OFFSET(umb_shape_options, status_count, 24);
-OFFSET(umb_shape_options, run, 32);
+OFFSET(umb_shape_options, points, 16);
+OFFSET(umb_shape_options, status, 24);
+OFFSET(umb_shape_options, run, 48);
 
 SIZE(umb_status_output, 16);
 OFFSET(umb_status_output, data, 0);

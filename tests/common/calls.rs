@@ -222,6 +222,7 @@ pub struct Prepared<'a> {
     sums: *mut f64,
     classes: umb_status_output,
     list: *mut u32,
+    room: usize,
     pub model: umb_adaptive_model,
     stats: umb_topology_stats,
     valence: usize,
@@ -287,6 +288,7 @@ impl<'a> Prepared<'a> {
             sums: std::ptr::null_mut(),
             classes: umb_status_output { data: std::ptr::null_mut(), stride: 0 },
             list: std::ptr::null_mut(),
+            room: mesh.positions.len(),
             model: zeroed(),
             stats: zeroed(),
             valence: usize::MAX,
@@ -376,8 +378,8 @@ impl<'a> Prepared<'a> {
                     prepared.watershed_options.height = &fixture.height;
                 }
                 if kind == Kind::Classes {
-                    prepared.region_options.classes = fixture.classes.as_ptr();
-                    prepared.region_options.class_count = fixture.classes.len();
+                    let (data, count) = (fixture.classes.as_ptr(), fixture.classes.len());
+                    prepared.region_options.classes = umb_bytes { data, count, stride: 0 };
                 }
             }
             Call::Areas | Call::Means => {
@@ -494,16 +496,25 @@ impl<'a> Prepared<'a> {
                     umb_segmentation_means(made, faces, points, scalars, self.sums, count, error)
                 }
                 Call::Shapes => {
+                    self.shape_options.points = points;
                     let k = &raw const self.fixture.height;
-                    umb_shape_classes(points, k, k, &self.shape_options, &self.classes, error)
+                    umb_shape_classes(k, k, &self.shape_options, &self.classes, error)
                 }
                 Call::AffectedNormals(_) => {
                     let (moved, count) = (&self.moved, &raw mut self.valence);
-                    umb_affected_normals(topology, moved, &self.normal_options, self.list, count, error)
+                    umb_affected_normals(topology, moved, &self.normal_options, self.list, self.room, count, error)
                 }
                 Call::AffectedCurvatures(_) => {
                     let (moved, count) = (&self.moved, &raw mut self.valence);
-                    umb_affected_curvatures(topology, moved, &self.curvature_options, self.list, count, error)
+                    umb_affected_curvatures(
+                        topology,
+                        moved,
+                        &self.curvature_options,
+                        self.list,
+                        self.room,
+                        count,
+                        error,
+                    )
                 }
                 Call::Polyline => {
                     umb_polyline_curvatures(&self.polyline, &self.polyline_options, &self.polyline_outputs, error)
@@ -567,7 +578,8 @@ impl<'a> Prepared<'a> {
     /// Whether every number that was written is finite.
     pub fn is_finite(&self) -> bool {
         let singles = |x: &f64| [x.to_bits() as u32, (x.to_bits() >> 32) as u32];
-        let finite = |x: &f64| match self.single {
+        let single = self.single && !matches!(self.call, Call::Areas | Call::Means);
+        let finite = |x: &f64| match single {
             true => singles(x).into_iter().all(|bits| f32::from_bits(bits).is_finite()),
             false => x.is_finite(),
         };

@@ -55,7 +55,7 @@ pub struct CutMesh {
 pub fn cut(mesh: &PolygonMesh, angle: f64, threads: usize) -> Result<CutMesh, Error> {
     let (faces, points) = (Faces::polygons(&mesh.indices, &mesh.offsets)?, Points::from(&mesh.positions));
     let run = Run { threads, ..Run::default() };
-    let parts = umbilic::CutMesh::new(&faces, &points, &Creases { angle, ..Creases::default() }, &run)?;
+    let parts = umbilic::CutMesh::new(&faces, &points, &Creases { angle, ..Creases::default() }, run)?;
     let cut = PolygonMesh {
         positions: parts.origins().iter().map(|&vertex| mesh.positions[vertex as usize]).collect(),
         offsets: mesh.offsets.clone(),
@@ -187,7 +187,7 @@ pub fn shape_classes(mesh: &PolygonMesh, found: &VertexCurvatures, tolerance: f6
     let mut classes = vec![0; mesh.vertex_count()];
     let [k1, k2] = [Quantity::K1, Quantity::K2].map(|quantity| found.quantity(quantity).unwrap_or_default().into());
     let output = classes.as_mut_slice().into();
-    umbilic::shape_classes(&k1, &k2, Some(&found.status), tolerance, Run::default(), &output)?;
+    umbilic::shape_classes(&k1, &k2, Some(&(&found.status).into()), tolerance, Run::default(), &output)?;
     Ok(classes)
 }
 

@@ -4,8 +4,9 @@ use crate::compute::{self, VertexCurvatures, with_progress};
 use crate::mesh::PolygonMesh;
 use crate::quantity::Quantity;
 use umbilic::{
-    CURVEDNESS_DEPTH, Creases, CurvatureOptions, Error, Faces, NO_SEGMENT, Points, REGION_TOLERANCE, RegionOptions,
-    ScalarField, Segmentation, ShapeClass, feature_segmentation, region_growing, shape_tolerance, watershed,
+    Creases, CurvatureOptions, Error, Faces, NO_SEGMENT, Points, RegionOptions, ScalarField, Segmentation,
+    ShapeClass, curvedness_depth, feature_segmentation, fill_unknown, has_curvature, region_growing,
+    region_tolerance, watershed,
 };
 
 /// How a mesh is cut; what is `None` goes with the size of the mesh.
@@ -15,7 +16,7 @@ pub enum Way<'a> {
     /// Into basins of curvedness, of at least a depth in 1/length.
     Watershed { depth: Option<f64>, curvature: CurvatureOptions<'a> },
     /// Into regions of one shape class, with curvatures of up to a tolerance in 1/length being none.
-    Regions { tolerance: Option<f64>, options: RegionOptions, curvature: CurvatureOptions<'a> },
+    Regions { tolerance: Option<f64>, options: RegionOptions<'a>, curvature: CurvatureOptions<'a> },
 }
 
 /// A mesh in segments.
@@ -83,26 +84,35 @@ pub fn segment(
             let found = with_progress(mesh, 1, threads, |run| feature_segmentation(&faces, &points, &creases, run))?;
             (found, None, None)
         }
-        Way::Watershed { depth, .. } => {
+        Way::Watershed { depth, curvature } => {
             let depth = match depth {
                 Some(depth) => *depth,
-                None => CURVEDNESS_DEPTH * shape_tolerance(&points)?,
+                None => curvedness_depth(&points)?,
             };
-            let height = ScalarField::Vertices(quantity(Quantity::Curvedness).into());
+            let mut curvedness = quantity(Quantity::Curvedness).to_vec();
+            if let Some(found) = curvatures {
+                fill_unknown(&compute::topology(mesh)?, curvature.method, &found.status, &mut curvedness);
+            }
+            let height = ScalarField::Vertices((&curvedness).into());
             let found = with_progress(mesh, 1, threads, |run| watershed(&faces, points.len(), &height, depth, run))?;
             (found, Some(depth), None)
         }
-        Way::Regions { tolerance, options, .. } => {
+        Way::Regions { tolerance, options, curvature } => {
             let tolerance = match tolerance {
                 Some(tolerance) => *tolerance,
-                None => (REGION_TOLERANCE * shape_tolerance(&points)?).min(f64::MAX),
+                None => region_tolerance(&points)?,
             };
-            let classes = match curvatures {
-                Some(found) => compute::shape_classes(mesh, found, tolerance)?,
-                None => Vec::new(),
-            };
-            let found =
-                with_progress(mesh, 1, threads, |run| region_growing(&faces, &points, &classes, options, run))?;
+            let mut classes = Vec::new();
+            if let Some(found) = curvatures {
+                classes = compute::shape_classes(mesh, found, tolerance)?;
+                for (class, &status) in classes.iter_mut().zip(&found.status) {
+                    if !has_curvature(curvature.method, status) {
+                        *class = ShapeClass::Undefined as u8;
+                    }
+                }
+            }
+            let known = (&classes).into();
+            let found = with_progress(mesh, 1, threads, |run| region_growing(&faces, &points, &known, options, run))?;
             (found, Some(tolerance), Some(classes))
         }
     };

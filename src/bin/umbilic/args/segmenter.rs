@@ -6,7 +6,7 @@ use crate::table::number;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use serde_json::Value;
-use umbilic::{CurvatureKind, DEFAULT_CREASE_ANGLE, RegionOptions};
+use umbilic::{Creases, CurvatureKind, DEFAULT_CREASE_ANGLE, RegionOptions};
 
 /// [`DEFAULT_CREASE_ANGLE`] in degrees.
 const CREASE_ANGLE: f64 = 30.0;
@@ -120,10 +120,10 @@ impl Segmenter {
         rows
     }
 
-    fn region_options(&self) -> RegionOptions {
+    fn region_options(&self) -> RegionOptions<'static> {
         let default = RegionOptions::default();
         RegionOptions {
-            angle: self.angle(),
+            creases: Creases { angle: self.angle(), ..Creases::default() },
             smallest_faces: self.smallest_faces.unwrap_or(default.smallest_faces),
             smallest_share: self.smallest_share.unwrap_or(default.smallest_share),
         }
