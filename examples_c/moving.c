@@ -185,8 +185,10 @@ static int animate(const umb_topology *mesh, const char *title, motion *move) {
     double start = seconds();
     compute(mesh, &full, &whole, &whole);
     double between = seconds();
-    check(umb_affected_normals(mesh, &moved, NULL, normal_list, &normals.vertex_count, &error), &error);
-    check(umb_affected_curvatures(mesh, &moved, &curvature_options, curvature_list, &curvatures.vertex_count, &error),
+    check(umb_affected_normals(mesh, &moved, NULL, normal_list, VERTEX_COUNT, &normals.vertex_count, &error),
+          &error);
+    check(umb_affected_curvatures(mesh, &moved, &curvature_options, curvature_list, VERTEX_COUNT,
+                                  &curvatures.vertex_count, &error),
           &error);
     normals.vertices = normal_list;
     curvatures.vertices = curvature_list;

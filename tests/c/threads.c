@@ -56,7 +56,7 @@ static uint64_t parts_round(const struct mesh *mesh, const struct handles *handl
   SUCCEEDS(umb_segmentation_areas(handles->segmentation, &faces, &points, (double *)(void *)areas.data, count, &error));
   moved.vertices = &vertex;
   moved.vertex_count = 1;
-  SUCCEEDS(umb_affected_normals(umb_cut_topology(handles->cut), &moved, &options, list, &found, &error));
+  SUCCEEDS(umb_affected_normals(umb_cut_topology(handles->cut), &moved, &options, list, umb_cut_vertex_count(handles->cut), &found, &error));
   hash = hash_bytes(hash, corners.data, corners.bytes);
   hash = hash_bytes(hash, positions.data, positions.bytes);
   hash = hash_bytes(hash, areas.data, areas.bytes);
