@@ -47,6 +47,13 @@ impl<T: Copy> List<T> {
     }
 }
 
+impl List<u8> {
+    /// As calls take bytes.
+    pub fn bytes(&self) -> umb_bytes {
+        umb_bytes { data: self.data, count: self.count, stride: 0 }
+    }
+}
+
 /// Marked edges and smoothing groups.
 pub struct Creases {
     edges: Option<List<u32>>,
@@ -99,6 +106,16 @@ impl Creases {
         let is_default = is_default.iter().all(|&byte| byte == 0);
         let view = Struct::new(source, &mut seen, is_default);
         Creases { edges, groups, view, seen }
+    }
+
+    /// The angle that a call goes by.
+    pub fn angle(&self) -> f64 {
+        let marked = self.seen.edge_count > 0 || !self.seen.groups.is_null();
+        match self.seen.angle {
+            0.0 if marked => std::f64::consts::PI,
+            0.0 => std::f64::consts::FRAC_PI_6,
+            angle => angle,
+        }
     }
 
     pub fn pointer(&self) -> *const umb_creases {

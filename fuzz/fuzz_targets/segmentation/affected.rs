@@ -39,16 +39,18 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
         (view.vertices, view.vertex_count) = (moved.data, moved.count);
     }
     if let Some(known) = &known {
-        (view.status, view.status_count) = (known.data, known.count);
+        view.status = known.bytes();
     }
     if source.spoils() {
         view.reserved = source.any_u32();
     }
     let view = if source.spoils() { Struct::null() } else { Struct::new(source, &mut view, false) };
     let of = if source.spoils() { std::ptr::null() } else { handle.pointer.cast_const() };
-    // Room for as many as there are vertices.
-    let block = Block::new(4 * count);
+    // Room for as many as there are vertices, or too little.
+    let room = if source.spoils() { source.below(count + 1) } else { count };
+    let block = Block::new(4 * room);
     let to: *mut u32 = if source.spoils() { std::ptr::null_mut() } else { block.at(0).cast() };
+    let room = if to.is_null() && source.half() { 0 } else { room };
     let (place, number) = receiver(source, usize::MAX);
     let outcome = Outcome::new(source);
     let error = outcome.pointer();
@@ -62,7 +64,7 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
         (options.run.threads, options.run.simd) = (source.number(), source.number());
         (options.run.vertices, options.run.vertex_count) = (nobody(), source.number());
         let given = Struct::new(source, &mut options, false);
-        let status = unsafe { umb_affected_normals(of, view.pointer(), given.pointer(), to, number, error) };
+        let status = unsafe { umb_affected_normals(of, view.pointer(), given.pointer(), to, room, number, error) };
         let success = outcome.check("umb_affected_normals", status, &ALLOWED[..10]);
         (success, options.weight == UMB_WEIGHT_ADAPTIVE_JET && options.model.is_null())
     } else {
@@ -71,7 +73,7 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
         (options.run.threads, options.run.simd) = (source.number(), source.number());
         (options.run.vertices, options.run.vertex_count) = (nobody(), source.number());
         let given = Struct::new(source, &mut options, false);
-        let status = unsafe { umb_affected_curvatures(of, view.pointer(), given.pointer(), to, number, error) };
+        let status = unsafe { umb_affected_curvatures(of, view.pointer(), given.pointer(), to, room, number, error) };
         let success = outcome.check("umb_affected_curvatures", status, &ALLOWED);
         (success, options.radius != 0.0 || options.model.is_null())
     };
@@ -84,6 +86,10 @@ pub fn lists(source: &mut Source<'_>, scene: &Scene) {
     assert!(all, "statuses of other vertices");
     let found = place.read();
     assert!(found <= count, "{found} of {count} vertices");
+    if to.is_null() {
+        assert!(block.is_untouched(), "a number was asked for");
+        return;
+    }
     let (list, rest) = block.bytes().split_at(4 * found);
     assert!(rest.iter().all(|&byte| byte == umbilic_fuzz::block::CANARY), "more is written than there is");
     let list: Vec<u32> = list.chunks_exact(4).map(|bytes| u32::from_ne_bytes(bytes.try_into().unwrap())).collect();
@@ -154,15 +160,17 @@ impl Task {
         let mut view: umb_moved = zeroed();
         (view.vertices, view.vertex_count) = (moved.as_ptr(), moved.len());
         if let Some(statuses) = statuses {
-            (view.status, view.status_count) = (statuses.as_ptr(), statuses.len());
+            view.status = umb_bytes { data: statuses.as_ptr(), count: statuses.len(), stride: 0 };
         }
         let mut list = vec![0u32; handle.vertex_count];
         let (mut count, none) = (0, std::ptr::null_mut());
         let (of, to) = (handle.pointer, list.as_mut_ptr());
         let status = unsafe {
             match self {
-                Task::Normals(options) => umb_affected_normals(of, &view, options, to, &mut count, none),
-                Task::Curvatures(options, _) => umb_affected_curvatures(of, &view, options, to, &mut count, none),
+                Task::Normals(options) => umb_affected_normals(of, &view, options, to, list.len(), &mut count, none),
+                Task::Curvatures(options, _) => {
+                    umb_affected_curvatures(of, &view, options, to, list.len(), &mut count, none)
+                }
             }
         };
         assert_eq!(status, UMB_OK, "there is no list");

@@ -4,7 +4,7 @@ use super::common::mesh::Mesh;
 use super::common::segment_oracle::{Meeting, angle, area_vector, meeting};
 use super::common::{length, sub};
 use super::{FROM_FACES, nobody, placed, point_count, pointer, points, receiver};
-use std::f64::consts::{FRAC_PI_6, PI};
+use std::f64::consts::PI;
 use umbilic::capi::*;
 use umbilic_fuzz::curvature::Asked;
 use umbilic_fuzz::parts::{Creases, located, scalars};
@@ -199,7 +199,7 @@ pub fn features(source: &mut Source<'_>, scene: &Scene) {
     let found = segment(source, scene, options, &view, points, &watch, false);
     let Some(Found { segments, mesh, meeting }) = found else { return };
     creases.check_accepted(points.count, segments.labels().len());
-    let most = if creases.seen.angle == 0.0 { FRAC_PI_6 } else { creases.seen.angle };
+    let most = creases.angle();
     let mesh = match placed_mesh(source, scene, &mesh) {
         Some(mesh) => mesh,
         None if most >= PI && !source.is_hostile() => mesh,
@@ -311,12 +311,8 @@ pub fn regions(source: &mut Source<'_>, scene: &Scene) {
     let (asked, curvature) =
         if classes.is_none() || source.rarely() { curvature(source, scene) } else { (None, Struct::null()) };
     let mut options: umb_region_options = zeroed();
-    options.angle = match source.byte() {
-        0..96 => 0.0,
-        96..128 => 4.0,
-        byte @ 128..248 => (byte - 127) as f64 / 32.0,
-        _ => source.pick(&[f64::INFINITY, 5e-324, 1e-9, PI]),
-    };
+    let creases = source.half().then(|| Creases::new(source, scene));
+    options.creases = creases.as_ref().map_or(std::ptr::null(), Creases::pointer);
     options.smallest_share = match source.byte() {
         0..128 => 0.0,
         byte @ 128..248 => (byte - 127) as f64 / 512.0,
@@ -325,26 +321,25 @@ pub fn regions(source: &mut Source<'_>, scene: &Scene) {
     options.smallest_faces = if source.rarely() { source.number() } else { source.below(8) };
     options.tolerance = if source.half() { 0.0 } else { source.byte() as f64 / 16.0 };
     if source.spoils() {
-        let field = match source.below(3) {
-            0 => &mut options.angle,
-            1 => &mut options.smallest_share,
-            _ => &mut options.tolerance,
-        };
+        let field = if source.half() { &mut options.smallest_share } else { &mut options.tolerance };
         *field = f64::from_bits(source.number());
     }
     if let Some(classes) = &classes {
-        (options.classes, options.class_count) = (classes.data, classes.count);
+        options.classes = classes.bytes();
     }
     (options.curvature, options.run) = (curvature.pointer(), run.view);
     if source.spoils() {
         options.reserved = source.any_u32();
     }
     let view = Struct::new(source, &mut options, false);
-    let excused = options.classes.is_null() && has_neither(&asked);
+    let excused = options.classes.data.is_null() && has_neither(&asked);
     let points = scene.points.points();
     let found = segment(source, scene, options, &view, points, &watch, excused);
     let Some(Found { segments, meeting, .. }) = found else { return };
-    assert!(options.angle >= 0.0 && (0.0..=1.0).contains(&options.smallest_share));
+    assert!((0.0..=1.0).contains(&options.smallest_share));
+    if let Some(creases) = &creases {
+        creases.check_accepted(points.count, segments.labels().len());
+    }
     if let Some(classes) = classes.filter(|classes| !classes.data.is_null()) {
         let known = classes.seen().iter().all(|&class| class <= UMB_SHAPE_SADDLE_VALLEY);
         assert!(known && classes.seen().len() == points.count, "{:?} of {} vertices", classes.seen(), points.count);

@@ -62,17 +62,18 @@ pub fn classes(source: &mut Source<'_>, scene: &Scene) {
         List::<u8>::new(source, bits.collect(), 1)
     });
     if let Some(known) = &known {
-        (options.status, options.status_count) = (known.data, known.count);
+        options.status = known.bytes();
     }
     let tolerance = options.tolerance;
+    let points = if tolerance != 0.0 && source.half() { None } else { placed(source, &scene.points.points()) };
+    options.points = pointer(&points);
     let options = Struct::new(source, &mut options, false);
     let found = Bytes::new(source, count, true);
     let classes = placed(source, &found.view());
-    let points = if tolerance != 0.0 && source.half() { None } else { placed(source, &scene.points.points()) };
     let outcome = Outcome::new(source);
     let status = unsafe {
-        let (points, options) = (pointer(&points), options.pointer());
-        umb_shape_classes(points, pointer(&k1), pointer(&k2), options, pointer(&classes), outcome.pointer())
+        let options = options.pointer();
+        umb_shape_classes(pointer(&k1), pointer(&k2), options, pointer(&classes), outcome.pointer())
     };
     watch.check(status);
     if !outcome.check("umb_shape_classes", status, &ALLOWED) {
@@ -82,7 +83,10 @@ pub fn classes(source: &mut Source<'_>, scene: &Scene) {
     }
     let all = known.as_ref().is_none_or(|known| known.data.is_null() || known.seen().len() == count);
     assert!(all && views[1].count == count && (0.0..f64::INFINITY).contains(&tolerance));
-    assert!(views.iter().all(|view| view.location <= UMB_AT_FACES), "scalars at neither vertices nor faces");
+    assert!(
+        views.iter().all(|view| view.location <= UMB_AT_FACES && view.location == views[0].location),
+        "scalars at neither vertices nor faces"
+    );
     found.check_gaps(|_| true, "class");
     for vertex in 0..count {
         let class = found.element(vertex).expect("a class for each vertex");
