@@ -6,10 +6,13 @@ use std::collections::{BTreeSet, HashMap};
 
 pub const NO_SEGMENT: u32 = u32::MAX;
 
+/// The faces across the edges of a face, with the edges, in the order of its corners.
+pub type Neighbours = Vec<(usize, [u32; 2])>;
+
 /// What meets what.
 pub struct Meeting {
-    /// For each face that counts, the faces across its edges with the edges, in the order of its corners; `None` for others.
-    pub neighbours: Vec<Option<Vec<(usize, [u32; 2])>>>,
+    /// For each face that counts; `None` for others.
+    pub neighbours: Vec<Option<Neighbours>>,
     /// The faces at each edge.
     pub edges: HashMap<[u32; 2], Vec<usize>>,
 }
