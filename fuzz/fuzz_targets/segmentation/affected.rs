@@ -109,7 +109,7 @@ enum Task {
 /// Results in memory.
 enum Results {
     Normals([Target; 2], Bytes),
-    Curvatures(Outputs),
+    Curvatures(Box<Outputs>),
 }
 
 impl Task {
@@ -122,7 +122,7 @@ impl Task {
             }
             Task::Curvatures(options, choice) => {
                 let choice = &mut Source::new(choice);
-                Results::Curvatures(Outputs::laid_out(choice, plain, options.method, count, double))
+                Results::Curvatures(Box::new(Outputs::laid_out(choice, plain, options.method, count, double)))
             }
         }
     }
@@ -256,9 +256,10 @@ pub fn updates(source: &mut Source<'_>, scene: &Scene) {
         for (array, (found, expected)) in results.targets().into_iter().zip(whole.targets()).enumerate() {
             for vertex in 0..count {
                 let (one, two) = (found.element(vertex), expected.element(vertex));
+                let same = one.map(f64::to_bits) == two.map(f64::to_bits);
                 assert!(
-                    one.map(f64::to_bits) == two.map(f64::to_bits),
-                    "after {moved:?} moved, array {array}, vertex {vertex}, not in {list:?}: {one:?} instead of {two:?}, weight {weight}, method {method}"
+                    same,
+                    "{moved:?} moved, {list:?}: array {array}, vertex {vertex}: {one:?} instead of {two:?}"
                 );
             }
         }
