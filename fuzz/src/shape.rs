@@ -45,6 +45,13 @@ impl Shape {
         shape
     }
 
+    /// A sheet that may be longer than any neighbourhood is wide.
+    pub fn sheet(source: &mut Source<'_>) -> Shape {
+        let mut shape = Shape { offsets: vec![0], ..Shape::default() };
+        shape.grid(source.below(24) + 8, source.below(3) + 2, false, source.byte());
+        shape
+    }
+
     pub fn face_count(&self) -> usize {
         self.offsets.len() - 1
     }

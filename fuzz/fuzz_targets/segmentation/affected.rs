@@ -3,10 +3,13 @@
 use super::{nobody, receiver};
 use std::collections::HashSet;
 use umbilic::capi::*;
+use umbilic_fuzz::coordinates::rows;
 use umbilic_fuzz::curvature::{Asked, Outputs};
 use umbilic_fuzz::parts::spoil;
 use umbilic_fuzz::weights::{model, small, weight};
-use umbilic_fuzz::{Block, Bytes, FaceArrays, Handle, Input, List, Outcome, Scene, Source, Struct, Target, zeroed};
+use umbilic_fuzz::{
+    Block, Bytes, FaceArrays, Handle, Input, List, Outcome, Scene, Shape, Source, Struct, Target, zeroed,
+};
 
 const ALLOWED: [umb_status; 11] = [
     UMB_ERROR_NULL_POINTER,
@@ -115,7 +118,7 @@ enum Task {
 /// Results in memory.
 enum Results {
     Normals([Target; 2], Bytes),
-    Curvatures(Outputs),
+    Curvatures(Box<Outputs>),
 }
 
 impl Task {
@@ -128,7 +131,7 @@ impl Task {
             }
             Task::Curvatures(options, choice) => {
                 let choice = &mut Source::new(choice);
-                Results::Curvatures(Outputs::laid_out(choice, plain, options.method, count, double))
+                Results::Curvatures(Box::new(Outputs::laid_out(choice, plain, options.method, count, double)))
             }
         }
     }
@@ -198,13 +201,19 @@ impl Results {
 
 /// Moves vertices, computes the affected ones anew, and compares with what a call for all finds.
 pub fn updates(source: &mut Source<'_>, scene: &Scene) {
-    let (plain, count, double) = (&mut Source::new(&[]), scene.shape.vertex_count, scene.double);
-    let mut rows = scene.rows.clone();
+    let (plain, double) = (&mut Source::new(&[]), scene.double);
+    let sheet = (source.byte() >= 192).then(|| Shape::sheet(source));
+    let before = match &sheet {
+        Some(sheet) => rows(source, &sheet.positions, sheet.vertex_count, double),
+        None => scene.rows.clone(),
+    };
+    let shape = sheet.as_ref().unwrap_or(&scene.shape);
+    let (count, mut rows) = (shape.vertex_count, before.clone());
     let most = if double { f64::MAX } else { f32::MAX.into() };
     if count == 0 || rows.as_flattened().iter().any(|x| x.is_nan() || x.abs() > most) {
         return;
     }
-    let faces = FaceArrays::new(plain, &scene.shape, false);
+    let faces = FaceArrays::new(plain, shape, false);
     let mut handle = std::ptr::null_mut();
     let (none, error) = (std::ptr::null(), std::ptr::null_mut());
     let status = unsafe { umb_topology_create(&faces.view, count, none, &mut handle, error) };
@@ -247,13 +256,13 @@ pub fn updates(source: &mut Source<'_>, scene: &Scene) {
             let row = &mut rows[vertex as usize];
             *row = match source.below(4) {
                 0 => row.map(|x| x * 0.75),
-                1 => scene.rows[source.below(count)],
+                1 => before[source.below(count)],
                 2 => [source.byte(), source.byte(), source.byte()].map(|byte| byte as f64 / 64.0 - 2.0),
                 _ => [row[1], row[2], row[0]],
             };
         }
-        let before = results.statuses(count);
-        let list = task.affected(&handle, &moved, source.half().then_some(&before));
+        let known = results.statuses(count);
+        let list = task.affected(&handle, &moved, source.half().then_some(&known));
         check_list(&list, &moved, count);
         let points = Input::new(plain, &rows, 3, double);
         let status = task.run(&handle, &points, Some(&list), source.below(5) as umb_simd, &results);
@@ -264,9 +273,10 @@ pub fn updates(source: &mut Source<'_>, scene: &Scene) {
         for (array, (found, expected)) in results.targets().into_iter().zip(whole.targets()).enumerate() {
             for vertex in 0..count {
                 let (one, two) = (found.element(vertex), expected.element(vertex));
+                let same = one.map(f64::to_bits) == two.map(f64::to_bits);
                 assert!(
-                    one.map(f64::to_bits) == two.map(f64::to_bits),
-                    "after {moved:?} moved, array {array}, vertex {vertex}, not in {list:?}: {one:?} instead of {two:?}, weight {weight}, method {method}"
+                    same,
+                    "{moved:?} moved, {list:?}: array {array}, vertex {vertex}: {one:?} instead of {two:?}"
                 );
             }
         }

@@ -391,6 +391,7 @@ fn sums(source: &mut Source<'_>, scene: &Scene, segments: &Segments) {
         assert!(source.is_hostile() && block.is_untouched(), "status {status}");
         return;
     }
+    assert_eq!(count, segments.count(), "another number of segments");
     let found: Vec<f64> =
         (0..count).map(|label| unsafe { block.at(start).cast::<f64>().add(label).read_unaligned() }).collect();
     assert!(found.iter().all(|x| x.is_finite()), "{found:?}");
