@@ -4,7 +4,7 @@
  *
  * A mesh's one-rings are built once, from faces alone, into a umb_topology; normals and curvatures are then computed
  * from positions as often as these move. Positions, faces and results are the caller's arrays, given as pointer, count and byte stride, and
- * are never kept or copied whole.
+ * are never kept, and not copied whole but for corner normals.
  *
  * Every function that can fail returns a umb_status, 0 for success, and takes an optional umb_error that names the
  * offending element. Outputs are written only on success. Structs of options and outputs start with their size and may
@@ -1067,7 +1067,8 @@ typedef struct umb_polyline_outputs {
  * Which edges are creases; an edge is one if any field says so. All zero: those that are sharper than 30 degrees.
  *
  * An edge with one face, with more than two, or whose two faces run through it in the same direction separates its faces in any
- * case.
+ * case. If cutting leaves just two of the faces at such an edge, in opposite directions, these meet there in the cut mesh: a sheet on which a
+ * fin stands is whole.
  */
 typedef struct umb_creases {
   /**
@@ -1079,8 +1080,9 @@ typedef struct umb_creases {
    */
   uint32_t reserved;
   /**
-   * An edge is a crease if the normals of its two faces differ by more than this angle, in radians; 0 stands for pi/6, and from
-   * pi on none is one by its angle. No edge of a face without area is.
+   * An edge is a crease if the normals of its two faces differ by more than this angle, in radians; from pi on none is one by its
+   * angle. 0 stands for pi/6 if there are neither `edges` nor `groups`, else for pi. A face without area has the normal of a neighbour, across
+   * its longest edge to one that has one: so a sliver along a crease does not join its sides.
    */
   double angle;
   /**
@@ -1092,7 +1094,8 @@ typedef struct umb_creases {
    */
   size_t edge_count;
   /**
-   * The smoothing group of each face, `#F`: the edge between two faces is a crease if theirs differ or are 0, which is no group.
+   * The smoothing group of each face, `#F`, a number as in OBJ files (not a mask of bits as in 3DS files): the edge between two faces is a
+   * crease if theirs differ or are 0, which is no group.
    * Null: there are none.
    */
   const uint32_t *groups;
@@ -1133,6 +1136,25 @@ typedef struct umb_corner_outputs {
 } umb_corner_outputs;
 
 /**
+ * An array of bytes to read: `UMB_VERTEX_` bits or `UMB_SHAPE_` constants, as calls write them. Null `data` and no bytes: there are
+ * none.
+ */
+typedef struct umb_bytes {
+  /**
+   * The first byte.
+   */
+  const uint8_t *data;
+  /**
+   * How many there are.
+   */
+  size_t count;
+  /**
+   * Bytes from one element to the next; 0 if packed.
+   */
+  size_t stride;
+} umb_bytes;
+
+/**
  * Vertices that have moved since normals or curvatures were computed.
  */
 typedef struct umb_moved {
@@ -1154,13 +1176,9 @@ typedef struct umb_moved {
   size_t vertex_count;
   /**
    * The status bytes of the results as they were, `#V`, which calls for lists have kept up to date: they tell fits whose neighbourhood was
-   * widened. May be null: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
+   * widened. May be none: then it is assumed of every vertex, and lists for jets, quadrics and Goldfeather's fits are longer.
    */
-  const uint8_t *status;
-  /**
-   * The number of vertices, or 0 if `status` is null.
-   */
-  size_t status_count;
+  struct umb_bytes status;
 } umb_moved;
 
 /**
@@ -1207,17 +1225,18 @@ typedef struct umb_shape_options {
    */
   uint32_t reserved;
   /**
-   * H counts as 0 up to this, and K up to its square; 1/length. 0 stands for `umb_shape_tolerance` of `points`.
+   * H counts as 0 up to this, and K up to its square; 1/length. 0 stands for `umb_shape_tolerance` of `points`; for none take a number that is tiny.
    */
   double tolerance;
   /**
-   * The status bytes of the curvatures, `#V`: isolated and degenerate vertices are undefined. May be null.
+   * Positions of which the default tolerance is taken, read only during the call; may be null if `tolerance` is not 0.
    */
-  const uint8_t *status;
+  const struct umb_points *points;
   /**
-   * The number of vertices, or 0 if `status` is null.
+   * The status bytes of the curvatures, as many: isolated and degenerate vertices are undefined. May be none. (Adaptive jets without a
+   * solution write curvatures of 0 with `UMB_VERTEX_FALLBACK` and without `UMB_VERTEX_CREASE`, which this takes for flat.)
    */
-  size_t status_count;
+  struct umb_bytes status;
   /**
    * How to run; `vertices` must be null.
    */
@@ -1260,7 +1279,7 @@ typedef struct umb_watershed_options {
   uint32_t reserved;
   /**
    * Basins that are less deep than this are merged with the neighbour over the lowest pass; in the unit of the height, at most infinity. 0: none
-   * of a given height; of curvedness, those of less than four times `umb_shape_tolerance`.
+   * of a given height; of curvedness, those of less than four times `umb_shape_tolerance`, and a tiny number for none.
    */
   double depth;
   /**
@@ -1290,16 +1309,13 @@ typedef struct umb_region_options {
    */
   uint32_t reserved;
   /**
-   * Faces whose normals differ by more than this, in radians, do not grow into each other; 0 stands for pi/6, and from pi on all
-   * do.
-   */
-  double angle;
-  /**
-   * Regions of less than this share of the whole area become part of a neighbour, 0 to 1; 0 stands for 0.0005.
+   * Regions of less than this share of the whole area become part of a neighbour, 0 to 1; 0 stands for 0.0005, and
+   * a tiny number merges none.
    */
   double smallest_share;
   /**
-   * For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`.
+   * For classes that are not given: the tolerance of `umb_shape_classes`, in 1/length; 0 for twice `umb_shape_tolerance`, and a
+   * tiny number for none.
    */
   double tolerance;
   /**
@@ -1307,13 +1323,13 @@ typedef struct umb_region_options {
    */
   size_t smallest_faces;
   /**
-   * A `UMB_SHAPE_` constant for each vertex, `#V`; null to have them computed.
+   * Where regions do not grow across, read only during the call; null for edges sharper than 30 degrees.
    */
-  const uint8_t *classes;
+  const struct umb_creases *creases;
   /**
-   * The number of vertices, or 0 if `classes` is null.
+   * A `UMB_SHAPE_` constant for each vertex, `#V`; none to have them computed.
    */
-  size_t class_count;
+  struct umb_bytes classes;
   /**
    * For classes that are not given: how curvatures are computed, `run` aside; null for adaptive jets.
    */
@@ -2099,8 +2115,8 @@ umb_status umb_polyline_curvatures(const struct umb_polyline *polyline,
  *
  * Positions are looked at for the angles only: as they move, the cut stays until the caller makes another.
  *
- * Cost: linear in the number of corners, on one thread but for the topology. Held are the topology and 4 bytes a corner and a
- * vertex.
+ * Cost: linear in the number of corners, on one thread but for normals and topology. Held are the topology and 4 bytes a corner, a
+ * vertex and a vertex of the cut mesh.
  *
  * @param faces the faces; read only during the call
  * @param points the positions of all vertices; read only during the call
@@ -2173,8 +2189,17 @@ UMB_API
 const uint32_t *umb_cut_origins(const struct umb_cut *cut);
 
 /**
+ * Where the vertices of the cut mesh that come from each original vertex start, `#V + 1` numbers in the handle's memory: those of vertex `v` are
+ * the numbers from `starts[v]` up to `starts[v + 1]`, so that what moves or is marked there is found here. Null for null.
+ *
+ * @since 0.1.0
+ */
+UMB_API
+const uint32_t *umb_cut_starts(const struct umb_cut *cut);
+
+/**
  * Copies an element for each original vertex, positions for example, to each vertex of the cut mesh that comes from it: what calls
- * over `umb_cut_topology` take.
+ * over `umb_cut_topology` take. A number beyond the range of the output's scalar becomes its largest; what is not finite stays so.
  *
  * @param cut the handle
  * @param points an element for each original vertex
@@ -2195,7 +2220,7 @@ umb_status umb_cut_points(const struct umb_cut *cut,
  * Computes a unit normal for each corner of each face: smooth where faces go on, split at creases.
  *
  * They are the vertex normals of the cut mesh, by any weight: an open run of faces counts as one at a boundary does. Where nothing is cut, they are those of
- * `umb_vertex_normals`, to the bit. `UMB_WEIGHT_ANGLE` is what Blender takes for corner normals, and what those expect who bake
+ * `umb_vertex_normals`, to the bit if all outputs are of one scalar: one in `f64` has all computed in double precision. `UMB_WEIGHT_ANGLE` is what Blender takes for corner normals, and what those expect who bake
  * or shade with MikkTSpace: it makes tangents, and takes normals as they are given.
  *
  * A renderer that has an index for each attribute takes `normal` with `umb_cut_corners`; one that has a single index
@@ -2250,12 +2275,13 @@ umb_status umb_corner_normals_from_faces(const struct umb_faces *faces,
  * positions.
  *
  * Threads: any number of calls may use one topology at once. Cost: the rings of what is found, and next to nothing for the rest of
- * the mesh.
+ * the mesh: a byte a vertex that is cleared.
  *
  * @param topology the handle
  * @param moved the vertices that moved
  * @param options those of the call for the normals; `run` is not looked at. May be null
- * @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+ * @param vertices receives the list, each vertex once, those that moved first; null, with no room, to ask for their number alone
+ * @param room how many `vertices` has room for; as many as the topology has vertices are enough for any list
  * @param count receives the number of vertices in the list
  * @param error may be null
  *
@@ -2269,6 +2295,7 @@ umb_status umb_affected_normals(const struct umb_topology *topology,
                                 const struct umb_moved *moved,
                                 const struct umb_normal_options *options,
                                 uint32_t *vertices,
+                                size_t room,
                                 size_t *count,
                                 struct umb_error *error);
 
@@ -2279,7 +2306,8 @@ umb_status umb_affected_normals(const struct umb_topology *topology,
  * @param topology the handle
  * @param moved the vertices that moved, or whose given normals changed
  * @param options those of the call for the curvatures; `run` is not looked at. May be null
- * @param vertices receives the list, each vertex once, those that moved first: room for as many as the topology has vertices
+ * @param vertices receives the list, each vertex once, those that moved first; null, with no room, to ask for their number alone
+ * @param room how many `vertices` has room for; as many as the topology has vertices are enough for any list
  * @param count receives the number of vertices in the list
  * @param error may be null
  *
@@ -2292,11 +2320,12 @@ umb_status umb_affected_curvatures(const struct umb_topology *topology,
                                    const struct umb_moved *moved,
                                    const struct umb_curvature_options *options,
                                    uint32_t *vertices,
+                                   size_t room,
                                    size_t *count,
                                    struct umb_error *error);
 
 /**
- * A tolerance for `umb_shape_classes` that goes with the size of a mesh: one by the diagonal of the bounding box of all points, so that a
+ * A tolerance for `umb_shape_classes` that goes with the size of a mesh: one by the diagonal of the bounding box of all points (those without faces as well: a stray one far off makes it small), so that a
  * ball counts as curved up to a radius of the diagonal, and a cylinder up to half of that. 0 if the points are one or none. In 1/length. For
  * meshes with noise take two to four times as much.
  *
@@ -2322,10 +2351,9 @@ umb_status umb_shape_tolerance(const struct umb_points *points,
  * Both comparisons are as if without rounding. Same bits on any number of threads. Koenderink's shape index and curvedness are outputs of
  * `umb_curvatures`.
  *
- * @param points positions, for the default tolerance; may be null if `options->tolerance` is not 0
  * @param k1 the principal curvatures, in either order
- * @param k2 likewise, as many
- * @param options may be null
+ * @param k2 likewise, as many, at the same place
+ * @param options with a tolerance, or with points for the default
  * @param classes receives a byte for each of `k1`
  * @param error may be null
  *
@@ -2335,8 +2363,7 @@ umb_status umb_shape_tolerance(const struct umb_points *points,
  */
 UMB_API
 UMB_NODISCARD
-umb_status umb_shape_classes(const struct umb_points *points,
-                             const struct umb_scalars *k1,
+umb_status umb_shape_classes(const struct umb_scalars *k1,
                              const struct umb_scalars *k2,
                              const struct umb_shape_options *options,
                              const struct umb_status_output *classes,
@@ -2394,7 +2421,7 @@ umb_status umb_segment_watershed(const struct umb_faces *faces,
 /**
  * Grows regions of faces by the shape classes of their vertices (see `umb_shape_classes`): flat, cylindrical, spherical and saddle parts,
  * whether creases bound them or not. Faces whose corners, those on creases aside, are all of one class make regions with neighbours of the same class
- * across edges within the angle; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
+ * across edges that are no creases; the others, between parts, are added to the neighbour whose normal differs least; at last regions that are too small become
  * part of a neighbour: a smooth one if there is one, then one of the same class, then the one with the longest common border.
  *
  * By default curvatures are those of adaptive jets, which serve clean meshes and such with noise; with more noise than 1 % of the edges take a
