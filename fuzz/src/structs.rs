@@ -34,11 +34,11 @@ versioned! {
     umb_polyline_outputs: 120;
     umb_creases: 48;
     umb_corner_outputs: 96;
-    umb_moved: 40;
-    umb_shape_options: 72;
+    umb_moved: 48;
+    umb_shape_options: 88;
     umb_feature_options: 56;
     umb_watershed_options: 72;
-    umb_region_options: 104;
+    umb_region_options: 112;
     umb_error: 256;
 }
 
