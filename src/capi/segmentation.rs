@@ -132,7 +132,7 @@ pub unsafe extern "C" fn umb_segment_features(
 /// Same bits on any number of threads. Cost: O(n log n), on one thread but for the curvatures.
 ///
 /// @param faces the faces; read only during the call
-/// @param points the positions of all vertices; read only during the call
+/// @param points the positions of all vertices, read only during the call; beside a height only their number counts
 /// @param options may be null
 /// @param segmentation receives the handle; destroy it with `umb_segmentation_destroy`
 /// @param error may be null
