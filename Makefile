@@ -18,7 +18,7 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
-.PHONY: help demo test test-rust test-c test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
+.PHONY: help demo test test-rust test-c test-cpp test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
   bench-instructions accuracy paper pictures header packages clean FORCE
 
 help:
@@ -69,7 +69,7 @@ demo: $(LIBRARY)
 
 # ---- tests ----
 
-test: packages lint test-rust test-c test-examples test-peers
+test: packages lint test-rust test-c test-cpp test-examples test-peers
 	@echo "All tests passed."
 
 # Where the toolchain came without these two, the tests run without them.
@@ -93,6 +93,10 @@ test-c: $(LIBRARY) | packages
 	for script in benches/speed/*.py; do \
 	  $(PYTHON) -B -c 'import sys; compile(open(sys.argv[1]).read(), sys.argv[1], "exec")' $$script || exit 1; \
 	done
+
+# The C++ headers, with OpenMesh, CGAL and Eigen.
+test-cpp: $(LIBRARY) | packages
+	CXX="$(CXX)" tests/cpp/test.sh
 
 # The C and C++ examples, OpenMesh and CGAL among them, on real meshes; the benchmarks are compiled.
 test-examples: $(LIBRARY) $(MESHES) | packages

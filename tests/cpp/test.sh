@@ -1,0 +1,29 @@
+#!/bin/sh
+# The C++ headers and their tests, under two compilers, in C++17 and C++20; the wrapper also under sanitizers and without exceptions. Run it at
+# the root, after `make target/release/libumbilic.so`. LIBRARY names another directory with the library.
+set -eu
+
+here=tests/cpp
+library=${LIBRARY:-$PWD/target/release}
+built=target/cpp
+strict="-O1 -Wall -Wextra -Wpedantic -Wconversion -Werror -Iinclude"
+link="-L$library -lumbilic -Wl,-rpath,$library -lpthread"
+mkdir -p "$built"
+
+# The hosts' headers are theirs: no warnings of those.
+# shellcheck disable=SC2086 # lists of words, here and below
+test_program() {
+  program=$1
+  shift
+  "$@" $strict $here/$program.cpp -o $built/$program $link $libraries
+  $built/$program
+}
+libraries=
+for compiler in "${CXX:-c++}" clang++; do
+  for standard in c++17 c++20; do
+    test_program wrapper "$compiler" -std=$standard
+    test_program values "$compiler" -std=$standard -fno-exceptions -fno-rtti
+    test_program eigen "$compiler" -std=$standard -isystem /usr/include/eigen3
+  done
+done
+test_program wrapper "${CXX:-c++}" -std=c++17 -g -fsanitize=address,undefined -fno-sanitize-recover=all
