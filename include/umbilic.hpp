@@ -1632,6 +1632,94 @@ segmentation segment(const faces &loops, const points &positions, const Options 
   return found;
 }
 
+// ---- for adapters to hosts: curvatures by name ----
+
+/** Curvatures that an adapter writes to properties of a host's mesh; any of them together, by `|`. */
+using quantities = std::uint32_t;
+
+/** One of them each, under the name of its property. */
+namespace quantity {
+constexpr quantities k1 = 1U << 0;                   // "v:k1", 1/length
+constexpr quantities k2 = 1U << 1;                   // "v:k2", 1/length
+constexpr quantities direction1 = 1U << 2;           // "v:dir1", unit vectors
+constexpr quantities direction2 = 1U << 3;           // "v:dir2", unit vectors
+constexpr quantities mean = 1U << 4;                 // "v:mean", 1/length
+constexpr quantities gaussian = 1U << 5;             // "v:gauss", 1/length^2
+constexpr quantities mean_normal = 1U << 6;          // "v:mean_normal", 1/length
+constexpr quantities area = 1U << 7;                 // "v:area", length^2
+constexpr quantities integrated_mean = 1U << 8;      // "v:integrated_mean", length
+constexpr quantities integrated_gaussian = 1U << 9;  // "v:integrated_gauss"
+constexpr quantities shape_index = 1U << 10;         // "v:shape_index"
+constexpr quantities curvedness = 1U << 11;          // "v:curvedness", 1/length
+constexpr quantities residual = 1U << 12;            // "v:residual"
+constexpr quantities condition = 1U << 13;           // "v:condition"
+constexpr quantities degrees_of_freedom = 1U << 14;  // "v:degrees_of_freedom"
+constexpr quantities normal = 1U << 15;              // "v:fit_normal", unit vectors
+constexpr quantities status = 1U << 16;              // "v:curvature_status", UMB_VERTEX_ bits
+/** Those of the first six that a method has. */
+constexpr quantities of_method(umb_curvature_method method) noexcept {
+  if (method == UMB_CURVATURE_ANGLE_DEFECT) return gaussian;
+  if (method == UMB_CURVATURE_WATANABE || method == UMB_CURVATURE_MEYER) return k1 | k2 | mean | gaussian;
+  return k1 | k2 | direction1 | direction2 | mean | gaussian;
+}
+/** Stands for `of_method` of the method that is asked for. */
+constexpr quantities default_ones = 0;
+}  // namespace quantity
+
+namespace detail {
+
+template <class Output>
+struct named {
+  quantities bit;
+  const char *name;
+  Output curvature_outputs::*output;
+};
+
+constexpr named<numbers> NAMED_NUMBERS[] = {{quantity::k1, "v:k1", &curvature_outputs::k1},
+                                            {quantity::k2, "v:k2", &curvature_outputs::k2},
+                                            {quantity::mean, "v:mean", &curvature_outputs::mean},
+                                            {quantity::gaussian, "v:gauss", &curvature_outputs::gaussian},
+                                            {quantity::area, "v:area", &curvature_outputs::area},
+                                            {quantity::integrated_mean, "v:integrated_mean", &curvature_outputs::integrated_mean},
+                                            {quantity::integrated_gaussian, "v:integrated_gauss", &curvature_outputs::integrated_gaussian},
+                                            {quantity::shape_index, "v:shape_index", &curvature_outputs::shape_index},
+                                            {quantity::curvedness, "v:curvedness", &curvature_outputs::curvedness},
+                                            {quantity::residual, "v:residual", &curvature_outputs::residual},
+                                            {quantity::condition, "v:condition", &curvature_outputs::condition},
+                                            {quantity::degrees_of_freedom, "v:degrees_of_freedom", &curvature_outputs::degrees_of_freedom}};
+constexpr named<vectors> NAMED_VECTORS[] = {{quantity::direction1, "v:dir1", &curvature_outputs::direction1},
+                                            {quantity::direction2, "v:dir2", &curvature_outputs::direction2},
+                                            {quantity::mean_normal, "v:mean_normal", &curvature_outputs::mean_normal},
+                                            {quantity::normal, "v:fit_normal", &curvature_outputs::normal}};
+constexpr const char *STATUS_NAME = "v:curvature_status";
+
+}  // namespace detail
+
+/**
+ * What adapters keep of a mesh beside its topology: which of its vertices and faces are there, where a host leaves gaps for those that were
+ * deleted. Indices of vertices are the host's; faces are numbered without gaps.
+ */
+class host_topology : public topology {
+ public:
+  host_topology() noexcept = default;
+  host_topology(topology &&built, bool has_gaps, std::vector<std::uint32_t> &&existing) noexcept
+      : topology(std::move(built)), existing_(std::move(existing)), has_gaps_(has_gaps) {}
+
+  /** Whether some vertices are deleted. */
+  bool has_gaps() const noexcept { return has_gaps_; }
+
+  /** Options for the vertices that are there, or for those that the caller lists. */
+  template <class Options>
+  Options restrict_to_existing(Options options) const noexcept {
+    if (has_gaps_ && options.run.vertices == nullptr) options.only(existing_);
+    return options;
+  }
+
+ private:
+  std::vector<std::uint32_t> existing_;  // none unless there are gaps
+  bool has_gaps_ = false;
+};
+
 }  // namespace umbilic
 
 #endif  // UMBILIC_HPP
