@@ -18,8 +18,8 @@
  * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were. Adaptive
  * jets without a model learn from all positions, so those of deleted vertices have to be finite.
  *
- * Errors are thrown, as `umbilic::error` (see umbilic.hpp); what a property of another type under one of the names is, is left alone, and
- * another added beside it.
+ * Errors are thrown, as `umbilic::error` (see umbilic.hpp). A property that has one of the names but another type is left alone, and another
+ * added beside it.
  *
  * A module for OpenMesh's decimaters is in umbilic/openmesh_decimater.hpp.
  */
@@ -96,7 +96,7 @@ bool has_deleted_vertices(const Mesh &mesh) {
 
 /** The faces of a mesh, deleted ones left out: copies 4 bytes a corner. Corners run as `mesh.fh_range()` does, at the `to` vertices. */
 template <class Mesh>
-polygons faces(const Mesh &mesh) {
+polygons polygons_of(const Mesh &mesh) {
   polygons loops;
   loops.reserve(mesh.n_halfedges());
   for (const auto face : mesh.faces()) {
@@ -116,7 +116,7 @@ host_topology build_topology(const Mesh &mesh, const topology_options &options =
   if (has_gaps) {
     for (const auto vertex : mesh.vertices()) existing.push_back(static_cast<std::uint32_t>(vertex.idx()));
   }
-  return host_topology(topology(openmesh::faces(mesh), mesh.n_vertices(), options), has_gaps, std::move(existing));
+  return host_topology(topology(polygons_of(mesh), mesh.n_vertices(), options), has_gaps, std::move(existing));
 }
 
 // ---- normals ----
@@ -144,9 +144,7 @@ void vertex_normals(Mesh &mesh, const host_topology &rings, const normal_options
     umbilic::vertex_normals(rings, where, into, options);
     const auto take = [&](std::size_t v) {
       typename Mesh::Normal &normal = detail::array_of(mesh, mesh.vertex_normals_pph())[v];
-      for (int k = 0; k < 3; k++) {
-        normal[k] = static_cast<std::decay_t<decltype(normal[0])>>(normals[v][static_cast<std::size_t>(k)]);
-      }
+      for (std::size_t k = 0; k < 3; k++) normal[k] = static_cast<std::decay_t<decltype(normal[0])>>(normals[v][k]);
     };
     if (options.run.vertices == nullptr) {
       for (std::size_t v = 0; v < normals.size(); v++) take(v);
@@ -189,9 +187,9 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
       all.mark(marked);
     }
   }
-  const polygons loops = openmesh::faces(mesh);
+  const polygons loops = polygons_of(mesh);
   if (where.groups != nullptr && where.group_count == mesh.n_faces() && loops.size() < mesh.n_faces()) {
-    for (const auto face : mesh.faces()) groups.push_back(where.groups[face.idx()]);
+    for (const auto face : mesh.faces()) groups.push_back(where.groups[static_cast<std::size_t>(face.idx())]);
     all.group(groups);
   }
 
@@ -207,7 +205,7 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
     for (const auto halfedge : mesh.fh_range(face)) {
       const std::array<Scalar, 3> &normal = normals[cut.corners()[corner++]];
       typename Mesh::Normal copied;
-      for (int k = 0; k < 3; k++) copied[k] = static_cast<std::decay_t<decltype(copied[0])>>(normal[static_cast<std::size_t>(k)]);
+      for (std::size_t k = 0; k < 3; k++) copied[k] = static_cast<std::decay_t<decltype(copied[0])>>(normal[k]);
       mesh.set_normal(halfedge, copied);
     }
   }
@@ -288,12 +286,12 @@ scalars numbers_in(const Mesh &mesh, OpenMesh::VPropHandleT<Scalar> property) {
  *
  * What options hold for each face (heights, groups) goes by existing faces. Copies a label for each face.
  *
- * Answers with the segments: their number, boundary edges (in the mesh's vertices); areas and means by `openmesh::faces()`.
+ * Answers with the segments: their number, boundary edges (in the mesh's vertices); areas and means by `polygons_of`.
  */
 template <class Mesh, class Options>
 segmentation segment(Mesh &mesh, const Options &options) {
   const detail::positions<Mesh> positions(mesh);
-  segmentation found = umbilic::segment(openmesh::faces(mesh), positions, options);
+  segmentation found = umbilic::segment(polygons_of(mesh), positions, options);
   OpenMesh::FPropHandleT<std::uint32_t> property;
   detail::have(mesh, property, "f:segment");
   std::size_t number = 0;

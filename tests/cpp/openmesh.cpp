@@ -73,7 +73,7 @@ Mesh cube() {
     const auto side = [&](unsigned bit) { return static_cast<typename Mesh::Scalar>(i & bit ? 1 : -1); };
     v[i] = mesh.add_vertex({side(1), side(2), side(4)});
   }
-  for (const auto &f : {std::array<int, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
+  for (const auto &f : {std::array<std::size_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
     mesh.add_face({v[f[0]], v[f[1]], v[f[2]], v[f[3]]});
   }
   return mesh;
@@ -82,7 +82,7 @@ Mesh cube() {
 template <class A, class B>
 double product(const A &a, const B &b) {
   double sum = 0;
-  for (int k = 0; k < 3; k++) sum += static_cast<double>(a[k]) * static_cast<double>(b[k]);
+  for (std::size_t k = 0; k < 3; k++) sum += static_cast<double>(a[k]) * static_cast<double>(b[k]);
   return sum;
 }
 
@@ -141,7 +141,7 @@ void whole(bool exact) {
   OpenMesh::FPropHandleT<std::uint32_t> segment;
   CHECK(mesh.get_property_handle(segment, "f:segment"));
   for (const auto face : mesh.faces()) CHECK(mesh.property(segment, face) < 2);
-  const auto areas = segments.areas(um::faces(mesh), um::detail::positions<Mesh>(mesh));
+  const auto areas = segments.areas(um::polygons_of(mesh), um::detail::positions<Mesh>(mesh));
   CHECK(std::abs(areas[0] + areas[1] - 16 * PI) < 0.02 * 16 * PI);
 }
 

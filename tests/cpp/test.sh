@@ -10,7 +10,6 @@ strict="-O1 -Wall -Wextra -Wpedantic -Wconversion -Werror -Iinclude"
 link="-L$library -lumbilic -Wl,-rpath,$library -lpthread"
 mkdir -p "$built"
 
-# The hosts' headers are theirs: no warnings of those.
 # shellcheck disable=SC2086 # lists of words, here and below
 test_program() {
   program=$1
@@ -18,6 +17,7 @@ test_program() {
   "$@" $strict $here/$program.cpp -o $built/$program $link $libraries
   $built/$program
 }
+# Hosts' headers are found as the system's, so warnings are of ours alone.
 libraries=
 for compiler in "${CXX:-c++}" clang++; do
   for standard in c++17 c++20; do
@@ -26,4 +26,12 @@ for compiler in "${CXX:-c++}" clang++; do
     test_program eigen "$compiler" -std=$standard -isystem /usr/include/eigen3
   done
 done
+# Each of these takes half a minute to compile.
+for compiler in "${CXX:-c++} -std=c++17" "clang++ -std=c++20"; do
+  libraries="-lOpenMeshCore -lOpenMeshTools"
+  test_program openmesh $compiler
+  libraries="-lgmp -lmpfr"
+  test_program cgal $compiler
+done
+libraries=
 test_program wrapper "${CXX:-c++}" -std=c++17 -g -fsanitize=address,undefined -fno-sanitize-recover=all
