@@ -7,7 +7,9 @@
  *   c++ -std=c++17 -O2 -Wall -Wextra -DCGAL_EIGEN3_ENABLED -I../include -isystem /usr/include/eigen3 \
  *     cgal_curvature.cpp -o cgal_curvature \
  *     -L../target/release -lumbilic -lgmp -lmpfr -Wl,-rpath,../target/release
- *   ./cgal_curvature FILE...
+ *   ./cgal_curvature [-o DIRECTORY] FILE...
+ *
+ * With -o, each mesh is written there as PLY, coloured by H of umbilic's default, adaptive jets: blue is negative, red positive, white 0.
  *
  * CGAL::Monge_via_jet_fitting takes points. Here it is handed each vertex and its two rings (degrees 2 and 3) or three
  * rings (degree 4) of vertices that share a face, as umbilic's topology has them. In CGAL a surface that bends towards
@@ -41,19 +43,18 @@
 #include <exception>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Monge_via_jet_fitting.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh/IO/PLY.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
-#include <umbilic.h>
+#include <umbilic/cgal.hpp>
 
 namespace {
 
@@ -66,12 +67,8 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using Vertex = Mesh::Vertex_index;
 using Fitting = CGAL::Monge_via_jet_fitting<Kernel>;
 
-static_assert(sizeof(Point) == 3 * sizeof(double) && std::is_trivially_copyable<Point>::value &&
-                  std::is_standard_layout<Point>::value,
-              "points are three doubles, packed; those of a lazy kernel are not");
-static_assert(sizeof(Vector) == 3 * sizeof(double) && std::is_trivially_copyable<Vector>::value &&
-                  std::is_standard_layout<Vector>::value,
-              "and so are vectors");
+static_assert(umbilic::vector_traits<Point>::size == 3 && umbilic::vector_traits<Vector>::size == 3,
+              "points and vectors are three doubles in a row; those of a lazy kernel would be converted");
 
 constexpr double WELL_CONDITIONED = 1e4;
 // umbilic calls columns dependent below 2^-16 of their length, which is at least as much in CGAL's condition number; and
@@ -85,113 +82,69 @@ constexpr double THICK = 0.75;
 // What a term of a few operations may lose, relative to its operands.
 constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
 
-void check(umb_status status, const umb_error &error) {
-  if (status != UMB_OK) {
-    throw std::runtime_error(error.message);
-  }
-}
-
-struct DestroyTopology {
-  void operator()(umb_topology *topology) const { umb_topology_destroy(topology); }
-};
-using Topology = std::unique_ptr<umb_topology, DestroyTopology>;
-
-// CGAL keeps its faces as a half-edge structure, so they are the one thing that has to be copied out, once. The mesh
-// must have no removed elements (`collect_garbage()`): these would still have their places in its arrays.
-Topology build_topology(const Mesh &mesh) {
-  std::vector<uint32_t> indices, offsets{0};
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) {
-      indices.push_back(vertex.idx());
-    }
-    offsets.push_back(static_cast<uint32_t>(indices.size()));
-  }
-  umb_faces faces{};
-  faces.indices = indices.data();
-  faces.index_count = indices.size();
-  faces.index = UMB_INDEX_U32;
-  if (!CGAL::is_triangle_mesh(mesh)) {
-    faces.offsets = offsets.data();
-    faces.face_count = mesh.number_of_faces();
-  }
-
-  umb_topology *topology = nullptr;
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_topology_create(&faces, mesh.number_of_vertices(), nullptr, &topology, &error), error);
-  return Topology(topology);
-}
-
 // Property maps of the mesh, each of which is one array; umbilic writes into them.
 struct Curvatures {
   Mesh::Property_map<Vertex, double> k1, k2;
-  Mesh::Property_map<Vertex, Vector> direction1, direction2, normal;
+  Mesh::Property_map<Vertex, Vector> direction1, normal;
   Mesh::Property_map<Vertex, uint8_t> status;
   Mesh::Property_map<Vertex, Vector> face_normal;  // by area: tells the two sides of the surface apart
-
-  explicit Curvatures(Mesh &mesh) {
-    k1 = mesh.add_property_map<Vertex, double>("v:k1").first;
-    k2 = mesh.add_property_map<Vertex, double>("v:k2").first;
-    direction1 = mesh.add_property_map<Vertex, Vector>("v:direction1").first;
-    direction2 = mesh.add_property_map<Vertex, Vector>("v:direction2").first;
-    normal = mesh.add_property_map<Vertex, Vector>("v:normal").first;
-    status = mesh.add_property_map<Vertex, uint8_t>("v:status").first;
-    face_normal = mesh.add_property_map<Vertex, Vector>("v:face_normal").first;
-  }
 };
-
-template <class Value>
-umb_output output_to(Mesh::Property_map<Vertex, Value> &map) {
-  umb_output output{};
-  output.data = &map[Vertex(0)];
-  output.stride = sizeof(Value);
-  output.scalar = UMB_SCALAR_F64;
-  return output;
-}
 
 struct Jets {
   uint32_t degree, rings;
   std::size_t coefficients() const { return (degree + 1) * (degree + 2) / 2; }
 };
 
-// From the mesh's points, where they are, into its property maps.
-void umbilic_curvatures(const Mesh &mesh, const umb_topology &topology, const Jets &jets, Curvatures &curvatures) {
-  umb_points points{};
-  points.data = mesh.points().data();
-  points.count = mesh.number_of_vertices();
-  points.stride = sizeof(Point);
-  points.scalar = UMB_SCALAR_F64;
-  umb_error error = UMB_ERROR_INIT;
-
-  umb_normal_options normal_options = UMB_NORMAL_OPTIONS_INIT;
-  normal_options.weight = UMB_WEIGHT_AREA;
-  umb_normal_outputs normal_outputs = UMB_NORMAL_OUTPUTS_INIT;
-  normal_outputs.normal = output_to(curvatures.face_normal);
-  check(umb_vertex_normals(&topology, &points, &normal_options, &normal_outputs, &error), error);
-
-  umb_curvature_options options = UMB_CURVATURE_OPTIONS_INIT;
-  options.method = UMB_CURVATURE_JET;
+Curvatures umbilic_curvatures(Mesh &mesh, const umbilic::host_topology &topology, const Jets &jets) {
+  namespace quantity = umbilic::quantity;
+  Curvatures found;
+  found.face_normal = umbilic::cgal::vertex_normals(mesh, topology, UMB_WEIGHT_AREA);
+  umbilic::curvature_options options(UMB_CURVATURE_JET);
   options.degree = jets.degree;
   options.rings = jets.rings;
-  options.normals = points;
-  options.normals.data = &curvatures.face_normal[Vertex(0)];
-  umb_curvature_outputs outputs = UMB_CURVATURE_OUTPUTS_INIT;
-  outputs.k1 = output_to(curvatures.k1);
-  outputs.k2 = output_to(curvatures.k2);
-  outputs.direction1 = output_to(curvatures.direction1);
-  outputs.direction2 = output_to(curvatures.direction2);
-  outputs.normal = output_to(curvatures.normal);
-  outputs.status.data = &curvatures.status[Vertex(0)];
-  check(umb_curvatures(&topology, &points, &options, &outputs, &error), error);
+  options.normals = umbilic::points(found.face_normal.data(), mesh.number_of_vertices());
+  const auto principal =
+      umbilic::cgal::curvatures(mesh, topology, options,
+                                quantity::k1 | quantity::k2 | quantity::direction1 | quantity::normal | quantity::status);
+  found.k1 = principal.k1;
+  found.k2 = principal.k2;
+  found.direction1 = principal.dir1;
+  found.normal = mesh.property_map<Vertex, Vector>("v:fit_normal").first;
+  found.status = mesh.property_map<Vertex, uint8_t>("v:curvature_status").first;
+  return found;
+}
+
+// Colours by H: a tenth of the vertices are more than full red or blue. CGAL writes the property of this name.
+void write(Mesh &mesh, const umbilic::host_topology &topology, const std::string &path) {
+  const auto mean = umbilic::cgal::curvatures(mesh, topology).mean;
+  std::vector<double> sizes;
+  for (const auto vertex : mesh.vertices()) {
+    sizes.push_back(std::abs(mean[vertex]));
+  }
+  const auto full = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 9 / 10);
+  std::nth_element(sizes.begin(), full, sizes.end());
+  const double scale = *full > 0.0 ? 1.0 / *full : 0.0;
+  auto colors = mesh.add_property_map<Vertex, CGAL::IO::Color>("v:color").first;
+  for (const auto vertex : mesh.vertices()) {
+    const double value = std::min(std::max(scale * mean[vertex], -1.0), 1.0);
+    const auto pale = static_cast<unsigned char>(255.0 * (1.0 - std::abs(value)));
+    colors[vertex] = value > 0.0 ? CGAL::IO::Color(255, pale, pale) : CGAL::IO::Color(pale, pale, 255);
+  }
+  std::ofstream file(path, std::ios::binary);
+  CGAL::IO::set_binary_mode(file);
+  if (!CGAL::IO::write_PLY(file, mesh)) {
+    throw std::runtime_error("cannot write " + path);
+  }
 }
 
 // The vertices around a vertex, ring after ring: those that share a face with one of the ring before.
 class Neighbourhood {
  public:
-  Neighbourhood(const Mesh &mesh, const umb_topology &topology)
+  Neighbourhood(const Mesh &mesh, umbilic::topology_view topology)
       : mesh_(mesh),
         triangles_(CGAL::is_triangle_mesh(mesh)),
-        offsets_(umb_topology_ring_offsets(&topology)),
-        neighbours_(umb_topology_ring_neighbours(&topology)),
+        offsets_(topology.ring_offsets()),
+        neighbours_(topology.ring_neighbours()),
         seen_(mesh.number_of_vertices(), 0) {}
 
   void start(Vertex vertex) {
@@ -244,7 +197,7 @@ class Neighbourhood {
 
   const Mesh &mesh_;
   const bool triangles_;
-  const uint32_t *offsets_, *neighbours_;
+  const umbilic::span<const uint32_t> offsets_, neighbours_;
   std::vector<uint32_t> seen_, members_;
   uint32_t gather_ = 0;
   std::size_t expanded_ = 0;
@@ -335,7 +288,7 @@ bool agrees_wider(const Curvatures &ours, Vertex vertex, const Jets &jets, Neigh
   return neighbourhood.cut();
 }
 
-Line compare(const Mesh &mesh, const umb_topology &topology, const Jets &jets, const Curvatures &ours) {
+Line compare(const Mesh &mesh, umbilic::topology_view topology, const Jets &jets, const Curvatures &ours) {
   Neighbourhood neighbourhood(mesh, topology);
   Line line;
   for (const auto vertex : mesh.vertices()) {
@@ -395,7 +348,7 @@ Line compare(const Mesh &mesh, const umb_topology &topology, const Jets &jets, c
 }
 
 // Prints the lines of one mesh, and tells whether all is explained.
-bool run(const std::string &path) {
+bool run(const std::string &path, const std::string &directory) {
   if (!std::ifstream(path)) {
     throw std::runtime_error("cannot be opened");
   }
@@ -408,13 +361,15 @@ bool run(const std::string &path) {
   }
   mesh.collect_garbage();
 
-  const Topology topology = build_topology(mesh);
+  const auto topology = umbilic::cgal::build_topology(mesh);
   const std::string name = path.substr(path.find_last_of('/') + 1);
-  Curvatures curvatures(mesh);
+  if (!directory.empty()) {
+    write(mesh, topology, directory + "/" + name.substr(0, name.find_last_of('.')) + "_mean.ply");
+  }
   bool good = true;
   for (const Jets jets : {Jets{2, 2}, Jets{3, 2}, Jets{4, 3}}) {
-    umbilic_curvatures(mesh, *topology, jets, curvatures);
-    const Line line = compare(mesh, *topology, jets, curvatures);
+    const Curvatures curvatures = umbilic_curvatures(mesh, topology, jets);
+    const Line line = compare(mesh, topology, jets, curvatures);
     std::printf("%-24s %7zu %6u %5u %9.1e %9.1e %8d %6d %9d %5d %7d %5d %9d %6d %5d %11d\n", name.c_str(),
                 static_cast<std::size_t>(mesh.number_of_vertices()), jets.degree, jets.rings, line.largest,
                 line.largest_loose, line.isolated, line.flat, line.ambiguous, line.cut, line.widened, line.few,
@@ -427,17 +382,20 @@ bool run(const std::string &path) {
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
+  const bool written = argc > 2 && std::string(argv[1]) == "-o";
+  const std::string directory = written ? argv[2] : "";
+  const int first = written ? 3 : 1;
+  if (argc <= first) {
+    std::fprintf(stderr, "usage: %s [-o DIRECTORY] FILE...\n", argv[0]);
     return 2;
   }
   std::printf("%-24s %7s %6s %5s %9s %9s %8s %6s %9s %5s %7s %5s %9s %6s %5s %11s\n", "mesh", "#V", "degree",
               "rings", "agreeing", "cond>1e4", "isolated", "flat", "ambiguous", "cut", "widened", "few", "dependent",
               "turned", "thick", "unexplained");
   bool good = true;
-  for (int index = 1; index < argc; index++) {
+  for (int index = first; index < argc; index++) {
     try {
-      good = run(argv[index]) && good;
+      good = run(argv[index], directory) && good;
     } catch (const std::exception &exception) {
       std::fprintf(stderr, "%s: %s\n", argv[index], exception.what());
       good = false;

@@ -6,7 +6,9 @@
  *   ln -sf libumbilic.so ../target/release/libumbilic.so.0
  *   c++ -std=c++17 -O2 -Wall -Wextra -I../include cgal_normals.cpp -o cgal_normals \
  *     -L../target/release -lumbilic -lgmp -lmpfr -Wl,-rpath,../target/release
- *   ./cgal_normals FILE...
+ *   ./cgal_normals [-o DIRECTORY] FILE...
+ *
+ * With -o, each mesh is written there as PLY, with N_CM as colours.
  *
  * Each mesh is tried with the kernels Simple_cartesian<double> and EPICK, whose points are three doubles. umbilic's
  * normals have to agree within 1e-12 with the same averages of what CGAL says of the faces:
@@ -33,10 +35,8 @@
 #include <exception>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -45,9 +45,10 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh/IO/PLY.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
-#include <umbilic.h>
+#include <umbilic/cgal.hpp>
 
 namespace {
 
@@ -58,76 +59,9 @@ constexpr double TOLERANCE = 1e-12;
 // What a term of a few operations may lose, relative to its operands.
 constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
 
-void check(umb_status status, const umb_error &error) {
-  if (status != UMB_OK) {
-    throw std::runtime_error(error.message);
-  }
-}
-
-struct DestroyTopology {
-  void operator()(umb_topology *topology) const { umb_topology_destroy(topology); }
-};
-using Topology = std::unique_ptr<umb_topology, DestroyTopology>;
-
-// CGAL keeps its faces as a half-edge structure, so they are the one thing that has to be copied out, once. The mesh
-// must have no removed elements (`collect_garbage()`): these would still have their places in its arrays.
-template <class Mesh>
-Topology build_topology(const Mesh &mesh) {
-  std::vector<uint32_t> indices, offsets{0};
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) {
-      indices.push_back(vertex.idx());
-    }
-    offsets.push_back(static_cast<uint32_t>(indices.size()));
-  }
-  umb_faces faces{};
-  faces.indices = indices.data();
-  faces.index_count = indices.size();
-  faces.index = UMB_INDEX_U32;
-  if (!CGAL::is_triangle_mesh(mesh)) {
-    faces.offsets = offsets.data();
-    faces.face_count = mesh.number_of_faces();
-  }
-
-  umb_topology *topology = nullptr;
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_topology_create(&faces, mesh.number_of_vertices(), nullptr, &topology, &error), error);
-  return Topology(topology);
-}
-
 // A property of the vertices, which CGAL keeps as one array.
 template <class Mesh, class Vector>
 using VectorMap = typename Mesh::template Property_map<typename Mesh::Vertex_index, Vector>;
-
-// Normals from the mesh's points, where they are, into a property map. Answers with the statuses.
-template <class Mesh, class Vector>
-std::vector<uint8_t> umbilic_normals(const Mesh &mesh, const umb_topology &topology, umb_weight weight,
-                                     VectorMap<Mesh, Vector> &normals) {
-  using Point = typename Mesh::Point;
-  static_assert(sizeof(Point) == 3 * sizeof(double) && std::is_trivially_copyable<Point>::value &&
-                    std::is_standard_layout<Point>::value,
-                "points are three doubles, packed; those of a lazy kernel are not");
-  static_assert(sizeof(Vector) == 3 * sizeof(double) && std::is_trivially_copyable<Vector>::value &&
-                    std::is_standard_layout<Vector>::value,
-                "and so are vectors");
-  umb_points points{};
-  points.data = mesh.points().data();
-  points.count = mesh.number_of_vertices();
-  points.stride = sizeof(Point);
-  points.scalar = UMB_SCALAR_F64;
-
-  std::vector<uint8_t> statuses(mesh.number_of_vertices());
-  umb_normal_options options = UMB_NORMAL_OPTIONS_INIT;
-  options.weight = weight;
-  umb_normal_outputs outputs = UMB_NORMAL_OUTPUTS_INIT;
-  outputs.normal.data = &normals[typename Mesh::Vertex_index(0)];
-  outputs.normal.stride = sizeof(Vector);
-  outputs.normal.scalar = UMB_SCALAR_F64;
-  outputs.status.data = statuses.data();
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_vertex_normals(&topology, &points, &options, &outputs, &error), error);
-  return statuses;
-}
 
 template <class Vector>
 double length(const Vector &vector) {
@@ -236,9 +170,25 @@ Line compare(const Mesh &mesh, const std::vector<Face<Vector>> &faces, umb_weigh
   return line;
 }
 
+// N_CM as colours: x, y and z as red, green and blue. CGAL writes the property of this name.
+template <class Mesh>
+void write(Mesh &mesh, const umbilic::host_topology &topology, const std::string &path) {
+  const auto normals = umbilic::cgal::vertex_normals(mesh, topology);
+  auto colors = mesh.template add_property_map<typename Mesh::Vertex_index, CGAL::IO::Color>("v:color").first;
+  for (const auto vertex : mesh.vertices()) {
+    const auto channel = [&](int k) { return static_cast<unsigned char>(127.5 + 127.5 * normals[vertex][k]); };
+    colors[vertex] = CGAL::IO::Color(channel(0), channel(1), channel(2));
+  }
+  std::ofstream file(path, std::ios::binary);
+  CGAL::IO::set_binary_mode(file);
+  if (!CGAL::IO::write_PLY(file, mesh)) {
+    throw std::runtime_error("cannot write " + path);
+  }
+}
+
 // Prints the lines of one kernel, and tells whether all is explained.
 template <class Kernel>
-bool run(const std::string &path, const char *kernel) {
+bool run(const std::string &path, const char *kernel, const std::string &directory) {
   using Vector = typename Kernel::Vector_3;
   using Mesh = CGAL::Surface_mesh<typename Kernel::Point_3>;
   Mesh mesh;
@@ -250,20 +200,23 @@ bool run(const std::string &path, const char *kernel) {
   }
   mesh.collect_garbage();
 
-  const Topology topology = build_topology(mesh);
+  const auto topology = umbilic::cgal::build_topology(mesh);
   std::vector<Face<Vector>> faces;
   for (const auto face : mesh.faces()) {
     faces.push_back(look_at_face<Mesh, Vector>(mesh, face));
   }
   const std::string name = path.substr(path.find_last_of('/') + 1);
+  if (!directory.empty()) {
+    write(mesh, topology, directory + "/" + name.substr(0, name.find_last_of('.')) + "_normals.ply");
+  }
   const struct {
     umb_weight weight;
     const char *name;
   } weights[] = {{UMB_WEIGHT_UNIFORM, "uniform"}, {UMB_WEIGHT_AREA, "area"}, {UMB_WEIGHT_ANGLE, "angle"}};
-  auto normals = mesh.template add_property_map<typename Mesh::Vertex_index, Vector>("v:normal").first;
   bool good = true;
   for (const auto &weight : weights) {
-    const auto statuses = umbilic_normals<Mesh, Vector>(mesh, *topology, weight.weight, normals);
+    std::vector<uint8_t> statuses(mesh.number_of_vertices());
+    const VectorMap<Mesh, Vector> normals = umbilic::cgal::vertex_normals(mesh, topology, weight.weight, statuses);
     const Line line = compare(mesh, faces, weight.weight, normals, statuses);
     std::printf("%-24s %7zu %7zu %-6s %-8s %9.1e %9d %8d %5d %11d\n", name.c_str(),
                 static_cast<std::size_t>(mesh.number_of_vertices()), static_cast<std::size_t>(mesh.number_of_faces()),
@@ -273,7 +226,7 @@ bool run(const std::string &path, const char *kernel) {
 
   auto most_visible = mesh.template add_property_map<typename Mesh::Vertex_index, Vector>("v:most_visible").first;
   PMP::compute_vertex_normals(mesh, most_visible);
-  umbilic_normals<Mesh, Vector>(mesh, *topology, UMB_WEIGHT_UNIFORM, normals);
+  const VectorMap<Mesh, Vector> normals = umbilic::cgal::vertex_normals(mesh, topology, UMB_WEIGHT_UNIFORM);
   double worst = 0.0, sum = 0.0;
   for (const auto vertex : mesh.vertices()) {
     const double angle = degrees_between(normals[vertex], most_visible[vertex]);
@@ -285,27 +238,30 @@ bool run(const std::string &path, const char *kernel) {
   return good;
 }
 
-bool run_file(const std::string &path) {
+bool run_file(const std::string &path, const std::string &directory) {
   if (!std::ifstream(path)) {
     throw std::runtime_error("cannot be opened");
   }
-  const bool good = run<CGAL::Simple_cartesian<double>>(path, "simple");
-  return run<CGAL::Exact_predicates_inexact_constructions_kernel>(path, "EPICK") && good;
+  const bool good = run<CGAL::Simple_cartesian<double>>(path, "simple", directory);
+  return run<CGAL::Exact_predicates_inexact_constructions_kernel>(path, "EPICK", "") && good;
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
+  const bool written = argc > 2 && std::string(argv[1]) == "-o";
+  const std::string directory = written ? argv[2] : "";
+  const int first = written ? 3 : 1;
+  if (argc <= first) {
+    std::fprintf(stderr, "usage: %s [-o DIRECTORY] FILE...\n", argv[0]);
     return 2;
   }
   std::printf("%-24s %7s %7s %-6s %-8s %9s %9s %8s %5s %11s\n", "mesh", "#V", "#F", "kernel", "weight", "agreeing",
               "cancelled", "rounding", "acos", "unexplained");
   bool good = true;
-  for (int index = 1; index < argc; index++) {
+  for (int index = first; index < argc; index++) {
     try {
-      good = run_file(argv[index]) && good;
+      good = run_file(argv[index], directory) && good;
     } catch (const std::exception &exception) {
       std::fprintf(stderr, "%s: %s\n", argv[index], exception.what());
       good = false;

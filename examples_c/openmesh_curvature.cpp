@@ -6,7 +6,9 @@
  *   ln -sf libumbilic.so ../target/release/libumbilic.so.0
  *   c++ -std=c++17 -O2 -Wall -Wextra -I../include openmesh_curvature.cpp -o openmesh_curvature \
  *     -L../target/release -lumbilic -lOpenMeshCore -Wl,-rpath,../target/release
- *   ./openmesh_curvature FILE...
+ *   ./openmesh_curvature [-o DIRECTORY] FILE...
+ *
+ * With -o, each mesh is written there as PLY, coloured by H: blue is negative, red positive, white 0.
  *
  * Principal curvatures and H, by umbilic's default, go to the vertex properties "v:k1", "v:k2" and "v:mean": a property
  * is an array, and umbilic writes into it. OpenMesh has no curvatures to compare these with, but it has the angles that
@@ -43,7 +45,6 @@
 #include <exception>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include <umbilic.h>
+#include <umbilic/openmesh.hpp>
 
 namespace {
 
@@ -66,74 +67,7 @@ constexpr double TOLERANCE = 1e-9;
 // What a term of a few operations may lose, relative to its operands.
 constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
 
-void check(umb_status status, const umb_error &error) {
-  if (status != UMB_OK) {
-    throw std::runtime_error(error.message);
-  }
-}
-
-struct DestroyTopology {
-  void operator()(umb_topology *topology) const { umb_topology_destroy(topology); }
-};
-using Topology = std::unique_ptr<umb_topology, DestroyTopology>;
-
-// OpenMesh keeps its faces as a half-edge structure, so they are the one thing that has to be copied out, once. The
-// mesh must have no deleted elements (`garbage_collection()`): these would still have their places in its arrays.
-template <class Mesh>
-Topology build_topology(const Mesh &mesh) {
-  std::vector<uint32_t> indices, offsets{0};
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : mesh.fv_range(face)) {
-      indices.push_back(static_cast<uint32_t>(vertex.idx()));
-    }
-    offsets.push_back(static_cast<uint32_t>(indices.size()));
-  }
-  umb_faces faces{};
-  faces.indices = indices.data();
-  faces.index_count = indices.size();
-  faces.index = UMB_INDEX_U32;
-  if (!mesh.is_trimesh()) {
-    faces.offsets = offsets.data();
-    faces.face_count = mesh.n_faces();
-  }
-
-  umb_topology *topology = nullptr;
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_topology_create(&faces, mesh.n_vertices(), nullptr, &topology, &error), error);
-  return Topology(topology);
-}
-
-template <class Mesh>
-Property named_property(Mesh &mesh, const char *name) {
-  Property property;
-  if (!mesh.get_property_handle(property, name)) {
-    mesh.add_property(property, name);
-  }
-  return property;
-}
-
-template <class Mesh>
-umb_output output_to(Mesh &mesh, Property property) {
-  umb_output output{};
-  output.data = mesh.property(property).data_vector().data();
-  output.scalar = UMB_SCALAR_F64;
-  return output;
-}
-
-// From the mesh's points, where they are, into its properties.
-template <class Mesh>
-void umbilic_curvatures(Mesh &mesh, const umb_topology &topology, umb_curvature_method method,
-                        const umb_curvature_outputs &outputs) {
-  static_assert(sizeof(typename Mesh::Point) == 3 * sizeof(double), "points are three doubles, packed");
-  umb_points points{};
-  points.data = mesh.points();
-  points.count = mesh.n_vertices();
-  points.scalar = UMB_SCALAR_F64;
-  umb_curvature_options options = UMB_CURVATURE_OPTIONS_INIT;
-  options.method = method;
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_curvatures(&topology, &points, &options, &outputs, &error), error);
-}
+namespace quantity = umbilic::quantity;
 
 // A number as OpenMesh's angles have it.
 struct Value {
@@ -278,30 +212,45 @@ To copy(const From &from) {
   return to;
 }
 
+// Colours by H: a tenth of the vertices are more than full red or blue.
+template <class Mesh>
+void write(Mesh &mesh, Property mean, const std::string &path) {
+  std::vector<double> sizes;
+  for (const auto vertex : mesh.vertices()) {
+    sizes.push_back(std::abs(mesh.property(mean, vertex)));
+  }
+  const auto full = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 9 / 10);
+  std::nth_element(sizes.begin(), full, sizes.end());
+  const double scale = *full > 0.0 ? 1.0 / *full : 0.0;
+  mesh.request_vertex_colors();
+  for (const auto vertex : mesh.vertices()) {
+    const double value = std::min(std::max(scale * mesh.property(mean, vertex), -1.0), 1.0);
+    const auto pale = static_cast<unsigned char>(255.0 * (1.0 - std::abs(value)));
+    const OpenMesh::Vec3uc color = value > 0.0 ? OpenMesh::Vec3uc(255, pale, pale) : OpenMesh::Vec3uc(pale, pale, 255);
+    mesh.set_color(vertex, OpenMesh::color_cast<typename Mesh::Color>(color));
+  }
+  if (!OpenMesh::IO::write_mesh(mesh, path, OpenMesh::IO::Options::VertexColor)) {
+    throw std::runtime_error("cannot write " + path);
+  }
+}
+
 // Prints the lines of one mesh, and tells whether all is explained.
 template <class Mesh>
-bool run(const std::string &name, const PolygonMesh &source) {
+bool run(const std::string &name, const PolygonMesh &source, const std::string &directory) {
   auto mesh = copy<Mesh>(source);
-  const Topology topology = build_topology(mesh);
+  const auto topology = umbilic::openmesh::build_topology(mesh);
 
   // The default: adaptive jets.
-  const Property k1 = named_property(mesh, "v:k1"), k2 = named_property(mesh, "v:k2");
-  const Property mean = named_property(mesh, "v:mean");
-  umb_curvature_outputs outputs = UMB_CURVATURE_OUTPUTS_INIT;
-  outputs.k1 = output_to(mesh, k1);
-  outputs.k2 = output_to(mesh, k2);
-  outputs.mean = output_to(mesh, mean);
-  umbilic_curvatures(mesh, *topology, UMB_CURVATURE_ADAPTIVE_JET, outputs);
-
-  const Property defect = named_property(mesh, "v:angle_defect");
-  outputs = UMB_CURVATURE_OUTPUTS_INIT;
-  outputs.integrated_gaussian = output_to(mesh, defect);
-  umbilic_curvatures(mesh, *topology, UMB_CURVATURE_ANGLE_DEFECT, outputs);
-
-  const Property integral = named_property(mesh, "v:integrated_mean");
-  outputs = UMB_CURVATURE_OUTPUTS_INIT;
-  outputs.integrated_mean = output_to(mesh, integral);
-  umbilic_curvatures(mesh, *topology, UMB_CURVATURE_NORMAL_CYCLE, outputs);
+  const auto found = umbilic::openmesh::curvatures(mesh, topology);
+  const Property k1 = found.k1, k2 = found.k2, mean = found.mean;
+  Property defect, integral;
+  umbilic::openmesh::curvatures(mesh, topology, UMB_CURVATURE_ANGLE_DEFECT, quantity::integrated_gaussian);
+  umbilic::openmesh::curvatures(mesh, topology, UMB_CURVATURE_NORMAL_CYCLE, quantity::integrated_mean);
+  mesh.get_property_handle(defect, "v:integrated_gauss");
+  mesh.get_property_handle(integral, "v:integrated_mean");
+  if (!directory.empty()) {
+    write(mesh, mean, directory + "/" + name.substr(0, name.find_last_of('.')) + "_mean.ply");
+  }
 
   Line defects, means, pointwise;
   double total = 0.0;
@@ -333,7 +282,7 @@ bool run(const std::string &name, const PolygonMesh &source) {
          gauss_bonnet <= 1e-12 * static_cast<double>(mesh.n_vertices());
 }
 
-bool run_file(const std::string &path) {
+bool run_file(const std::string &path, const std::string &directory) {
   if (!std::ifstream(path)) {
     throw std::runtime_error("cannot be opened");
   }
@@ -348,23 +297,26 @@ bool run_file(const std::string &path) {
   const std::string name = path.substr(path.find_last_of('/') + 1);
   const bool triangles =
       std::all_of(mesh.faces_begin(), mesh.faces_end(), [&](auto face) { return mesh.valence(face) == 3; });
-  return triangles ? run<TriangleMesh>(name, mesh) : run<PolygonMesh>(name, mesh);
+  return triangles ? run<TriangleMesh>(name, mesh, directory) : run<PolygonMesh>(name, mesh, directory);
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
+  const bool written = argc > 2 && std::string(argv[1]) == "-o";
+  const std::string directory = written ? argv[2] : "";
+  const int first = written ? 3 : 1;
+  if (argc <= first) {
+    std::fprintf(stderr, "usage: %s [-o DIRECTORY] FILE...\n", argv[0]);
     return 2;
   }
   omerr().disable();  // OpenMesh reports every face that it has to take apart
   std::printf("%-24s %7s %-8s %-6s %9s %7s %8s %5s %9s %11s %12s\n", "mesh", "#V", "faces", "", "agreeing", "acos",
               "rounding", "bent", "no length", "unexplained", "Gauss-Bonnet");
   bool good = true;
-  for (int index = 1; index < argc; index++) {
+  for (int index = first; index < argc; index++) {
     try {
-      good = run_file(argv[index]) && good;
+      good = run_file(argv[index], directory) && good;
     } catch (const std::exception &exception) {
       std::fprintf(stderr, "%s: %s\n", argv[index], exception.what());
       good = false;

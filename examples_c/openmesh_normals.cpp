@@ -6,7 +6,9 @@
  *   ln -sf libumbilic.so ../target/release/libumbilic.so.0
  *   c++ -std=c++17 -O2 -Wall -Wextra -I../include openmesh_normals.cpp -o openmesh_normals \
  *     -L../target/release -lumbilic -lOpenMeshCore -Wl,-rpath,../target/release
- *   ./openmesh_normals FILE...
+ *   ./openmesh_normals [-o DIRECTORY] FILE...
+ *
+ * With -o, each mesh is written there as PLY, with N_CM as normals and as colours.
  *
  * Each mesh is tried with coordinates in double and in float. Because OpenMesh's readers go through float, coordinates
  * are divided by 3 after reading, which fills all digits of a double. OpenMesh's normals and umbilic's are:
@@ -41,7 +43,6 @@
 #include <exception>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -51,7 +52,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include <umbilic.h>
+#include <umbilic/openmesh.hpp>
 
 namespace {
 
@@ -62,72 +63,6 @@ using PolygonMeshFloat = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraits
 using PolygonMeshDouble = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 
 enum class Method { fast, correct };
-
-void check(umb_status status, const umb_error &error) {
-  if (status != UMB_OK) {
-    throw std::runtime_error(error.message);
-  }
-}
-
-struct DestroyTopology {
-  void operator()(umb_topology *topology) const { umb_topology_destroy(topology); }
-};
-using Topology = std::unique_ptr<umb_topology, DestroyTopology>;
-
-// OpenMesh keeps its faces as a half-edge structure, so they are the one thing that has to be copied out, once. The
-// mesh must have no deleted elements (`garbage_collection()`): these would still have their places in its arrays.
-template <class Mesh>
-Topology build_topology(const Mesh &mesh) {
-  std::vector<uint32_t> indices, offsets{0};
-  for (const auto face : mesh.faces()) {
-    for (const auto vertex : mesh.fv_range(face)) {
-      indices.push_back(static_cast<uint32_t>(vertex.idx()));
-    }
-    offsets.push_back(static_cast<uint32_t>(indices.size()));
-  }
-  umb_faces faces{};
-  faces.indices = indices.data();
-  faces.index_count = indices.size();
-  faces.index = UMB_INDEX_U32;
-  if (!mesh.is_trimesh()) {
-    faces.offsets = offsets.data();
-    faces.face_count = mesh.n_faces();
-  }
-
-  umb_topology *topology = nullptr;
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_topology_create(&faces, mesh.n_vertices(), nullptr, &topology, &error), error);
-  return Topology(topology);
-}
-
-// Normals from the mesh's points, where they are, into the mesh's vertex normals, where they belong. Answers with the
-// statuses.
-template <class Mesh>
-std::vector<uint8_t> umbilic_normals(Mesh &mesh, const umb_topology &topology, umb_weight weight) {
-  using Point = typename Mesh::Point;
-  using Normal = typename Mesh::Normal;
-  static_assert(sizeof(Point) == 3 * sizeof(typename Mesh::Scalar), "points are three scalars, packed");
-  static_assert(std::is_same<Point, Normal>::value, "and so are normals");
-  const umb_scalar scalar =
-      std::is_same<typename Mesh::Scalar, float>::value ? UMB_SCALAR_F32 : UMB_SCALAR_F64;
-
-  mesh.request_vertex_normals();
-  umb_points points{};
-  points.data = mesh.points();
-  points.count = mesh.n_vertices();
-  points.scalar = scalar;
-
-  std::vector<uint8_t> statuses(mesh.n_vertices());
-  umb_normal_options options = UMB_NORMAL_OPTIONS_INIT;
-  options.weight = weight;
-  umb_normal_outputs outputs = UMB_NORMAL_OUTPUTS_INIT;
-  outputs.normal.data = mesh.property(mesh.vertex_normals_pph()).data_vector().data();
-  outputs.normal.scalar = scalar;
-  outputs.status.data = statuses.data();
-  umb_error error = UMB_ERROR_INIT;
-  check(umb_vertex_normals(&topology, &points, &options, &outputs, &error), error);
-  return statuses;
-}
 
 template <class Vector>
 Vec3d unit(const Vector &vector) {
@@ -203,10 +138,11 @@ struct Line {
 
 // `reference` has the coordinates of `mesh`, in double.
 template <class Mesh, class Reference>
-Line compare(Mesh &mesh, const Reference &reference, const umb_topology &topology, Method method) {
+Line compare(Mesh &mesh, const Reference &reference, const umbilic::host_topology &topology, Method method) {
   const double tolerance = std::is_same<typename Mesh::Scalar, float>::value ? 1e-6 : 1e-12;
   const umb_weight weight = method == Method::fast ? UMB_WEIGHT_UNIFORM : UMB_WEIGHT_AREA;
-  const std::vector<uint8_t> statuses = umbilic_normals(mesh, topology, weight);
+  std::vector<uint8_t> statuses(mesh.n_vertices());
+  umbilic::openmesh::vertex_normals(mesh, topology, weight, statuses);
 
   Line line;
   for (const auto vertex : mesh.vertices()) {
@@ -262,14 +198,14 @@ template <class Mesh, class Reference, class Source>
 bool run(const std::string &name, const Source &source) {
   auto mesh = copy<Mesh>(source);
   const auto reference = copy<Reference>(mesh);
-  const Topology topology = build_topology(mesh);
+  const auto topology = umbilic::openmesh::build_topology(mesh);
   const bool single = std::is_same<typename Mesh::Scalar, float>::value;
   bool good = true;
   for (const Method method : {Method::fast, Method::correct}) {
     if (method == Method::correct && !mesh.is_trimesh()) {
       break;
     }
-    const Line line = compare(mesh, reference, *topology, method);
+    const Line line = compare(mesh, reference, topology, method);
     std::printf("%-24s %7zu %-8s %-6s %-7s %9.1e %9d %7d %8d %11d", name.c_str(), mesh.n_vertices(),
                 mesh.is_trimesh() ? "triangle" : "polygon", single ? "float" : "double",
                 method == Method::fast ? "fast" : "correct", line.largest, line.cancelled, line.gaps, line.rounding,
@@ -283,7 +219,23 @@ bool run(const std::string &name, const Source &source) {
   return good;
 }
 
-bool run_file(const std::string &path) {
+// N_CM as normals, and as colours: x, y and z as red, green and blue.
+void write(PolygonMeshDouble &mesh, const std::string &path) {
+  umbilic::openmesh::vertex_normals(mesh);
+  mesh.request_vertex_colors();
+  for (const auto vertex : mesh.vertices()) {
+    const auto normal = mesh.normal(vertex);
+    const auto channel = [&](size_t k) { return static_cast<unsigned char>(127.5 + 127.5 * normal[k]); };
+    const OpenMesh::Vec3uc color(channel(0), channel(1), channel(2));
+    mesh.set_color(vertex, OpenMesh::color_cast<PolygonMeshDouble::Color>(color));
+  }
+  const OpenMesh::IO::Options options = OpenMesh::IO::Options::VertexNormal | OpenMesh::IO::Options::VertexColor;
+  if (!OpenMesh::IO::write_mesh(mesh, path, options)) {
+    throw std::runtime_error("cannot write " + path);
+  }
+}
+
+bool run_file(const std::string &path, const std::string &directory) {
   if (!std::ifstream(path)) {
     throw std::runtime_error("cannot be opened");
   }
@@ -296,6 +248,9 @@ bool run_file(const std::string &path) {
     mesh.set_point(vertex, mesh.point(vertex) / 3.0);
   }
   const std::string name = path.substr(path.find_last_of('/') + 1);
+  if (!directory.empty()) {
+    write(mesh, directory + "/" + name.substr(0, name.find_last_of('.')) + "_normals.ply");
+  }
   const bool triangles =
       std::all_of(mesh.faces_begin(), mesh.faces_end(), [&](auto face) { return mesh.valence(face) == 3; });
   if (triangles) {
@@ -309,17 +264,20 @@ bool run_file(const std::string &path) {
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FILE...\n", argv[0]);
+  const bool written = argc > 2 && std::string(argv[1]) == "-o";
+  const std::string directory = written ? argv[2] : "";
+  const int first = written ? 3 : 1;
+  if (argc <= first) {
+    std::fprintf(stderr, "usage: %s [-o DIRECTORY] FILE...\n", argv[0]);
     return 2;
   }
   omerr().disable();  // OpenMesh reports every face that it has to take apart
   std::printf("%-24s %7s %-8s %-6s %-7s %9s %9s %7s %8s %11s  %s\n", "mesh", "#V", "faces", "scalar", "method",
               "agreeing", "cancelled", "gaps", "rounding", "unexplained", "off in float");
   bool good = true;
-  for (int index = 1; index < argc; index++) {
+  for (int index = first; index < argc; index++) {
     try {
-      good = run_file(argv[index]) && good;
+      good = run_file(argv[index], directory) && good;
     } catch (const std::exception &exception) {
       std::fprintf(stderr, "%s: %s\n", argv[index], exception.what());
       good = false;

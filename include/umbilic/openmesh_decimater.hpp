@@ -23,17 +23,21 @@ namespace umbilic {
 namespace openmesh {
 
 /**
- * Error quadrics by curvature: the priority of OpenMesh's `ModQuadricT`, times the curvedness at the edge to some power.
+ * Error quadrics by curvature and normals, for what is to be shaded: the priority of a collapse is
  *
- * Where edges are h long and the surface curved by c, a collapse costs plain quadrics about c^2 h^6 (the square of a distance by an area),
- * so that edges end up in proportion to c^(-1/3): best for distances. The mean square of the angle between normals is least with edges
- * in proportion to c^(-1/2), and that is what quadrics times c give. So 0 is plain quadrics, and 1 is for normals and shading; beyond that,
- * curved places keep more than their share.
+ *   (q + w sum A^2 |n - N|^2) c^p
+ *
+ * where q is that of OpenMesh's `ModQuadricT` (squares of distances by areas), and the sum goes over the faces that the collapse changes: A is the
+ * area of such a face, n its normal, N the mean of the normals of the surface at its corners; c is the curvedness at the edge. Normals and
+ * curvedness are those of the mesh as it is at `initialize()`, by a fit; vertices that are left stay where they are.
+ *
+ * p = 1/2 and w = 0.03 at first; with p = 0 and w = 0 it is `ModQuadricT`. Quadrics alone put edges in proportion to c^(-1/3), best for
+ * distances; a power moves faces to where the surface turns. With 5 % of the faces left, angles between the normals of faces fell by 1 to 9 % on
+ * four smooth meshes, those of shading by 6 to 18 %, and distances changed by -3 to 7 %; on two machine parts angles fell by 28 to 73 %, while
+ * distances grew to 2.6 and 3.2 times, to 0.6 and 1.6 thousandths of the diagonal (examples_c/openmesh_decimate.cpp).
  *
  * Binary, after `set_largest_turn`: it allows a collapse if the curvedness times the length of the edge, the angle by which the surface turns
  * along it, is small enough; another module says in which order. So flat parts get coarse, and curved ones stay fine.
- *
- * Curvedness is that of the mesh as it is at `initialize()`, at vertices that stay where they are.
  */
 template <class MeshT>
 class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
@@ -45,14 +49,24 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
   using CollapseInfo = typename Base::CollapseInfo;
   DECIMATER_MODNAME(Curvature)
 
-  explicit ModCurvatureT(Mesh &mesh) : Base(mesh) { mesh.add_property(curvedness_); }
-  ~ModCurvatureT() override { Base::mesh().remove_property(curvedness_); }
+  explicit ModCurvatureT(Mesh &mesh) : Base(mesh) {
+    mesh.add_property(curvedness_);
+    mesh.add_property(normal_);
+  }
+  ~ModCurvatureT() override {
+    Base::mesh().remove_property(curvedness_);
+    Base::mesh().remove_property(normal_);
+  }
 
-  /** The power of the curvedness, at least 0; 1 at first. */
+  /** p, the power of the curvedness, at least 0. */
   void set_power(double power) noexcept { power_ = power; }
   double power() const noexcept { return power_; }
 
-  /** How curvature is estimated; adaptive jets at first. What it points to has to live until `initialize()`. */
+  /** w, the weight of normals, at least 0; without unit. */
+  void set_normal_weight(double weight) noexcept { normal_weight_ = weight; }
+  double normal_weight() const noexcept { return normal_weight_; }
+
+  /** How normals and curvature are estimated; adaptive jets at first. What it points to has to live until `initialize()`. */
   void set_options(const curvature_options &options) noexcept { options_ = options; }
 
   /** Makes the module binary: radians by which the surface may turn along an edge that collapses. */
@@ -66,12 +80,13 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
     Base::set_binary(false);
   }
 
-  /** Computes quadrics and curvedness. Throws `umbilic::error`. */
+  /** Computes quadrics, normals and curvedness. Throws `umbilic::error`. */
   void initialize() override {
     Base::initialize();
     Mesh &mesh = Base::mesh();
     curvature_outputs into;
     into.curvedness = detail::array_of(mesh, curvedness_);
+    into.normal = detail::array_of(mesh, normal_);
     const host_topology rings = build_topology(mesh);
     const detail::positions<Mesh> positions(mesh);
     umbilic::curvatures(rings, positions, into, rings.restrict_to_existing(options_));
@@ -88,7 +103,8 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
     }
     const float error = Base::collapse_priority(info);
     if (error < 0.0F) return error;
-    return static_cast<float>(static_cast<double>(error) * std::pow(std::max(curvedness / least_, 1.0), power_));
+    const double turned = normal_weight_ > 0.0 ? normal_weight_ * normal_error(info) : 0.0;
+    return static_cast<float>((static_cast<double>(error) + turned) * std::pow(std::max(curvedness / least_, 1.0), power_));
   }
 
   /** Of the bound that makes it binary: a factor of 0 to 1. */
@@ -99,9 +115,34 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
   }
 
  private:
+  using Vector = OpenMesh::Vec3d;
+
+  template <class From>
+  static Vector wide(const From &from) {
+    return Vector(static_cast<double>(from[0]), static_cast<double>(from[1]), static_cast<double>(from[2]));
+  }
+
+  // The sum over the faces that are left of those around v0, once it lies where v1 does; length^4.
+  double normal_error(const CollapseInfo &info) {
+    const Mesh &mesh = Base::mesh();
+    double sum = 0.0;
+    for (const auto halfedge : mesh.voh_range(info.v0)) {
+      if (mesh.is_boundary(halfedge)) continue;
+      const auto a = mesh.to_vertex_handle(halfedge), b = mesh.to_vertex_handle(mesh.next_halfedge_handle(halfedge));
+      if (a == info.v1 || b == info.v1) continue;
+      const Vector corner = wide(info.p1);
+      const Vector twice_area = (wide(mesh.point(a)) - corner).cross(wide(mesh.point(b)) - corner);
+      const Vector normals = wide(mesh.property(normal_, info.v1)) + wide(mesh.property(normal_, a)) + wide(mesh.property(normal_, b));
+      const double twice = twice_area.norm(), length = normals.norm();
+      if (twice > 0.0 && length > 0.0) sum += 0.25 * twice * twice * (twice_area / twice - normals / length).sqrnorm();
+    }
+    return sum;
+  }
+
   OpenMesh::VPropHandleT<detail::scalar<Mesh>> curvedness_;
+  OpenMesh::VPropHandleT<detail::vector<Mesh>> normal_;
   curvature_options options_;
-  double power_ = 1.0, largest_turn_ = 0.0, least_ = 1.0;
+  double power_ = 0.5, normal_weight_ = 0.03, largest_turn_ = 0.0, least_ = 1.0;
 };
 
 }  // namespace openmesh

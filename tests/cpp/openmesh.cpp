@@ -273,8 +273,9 @@ std::size_t decimated(double power, double turn, std::size_t faces) {
   typename OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
   CHECK(decimater.add(curvature));
   auto &module = decimater.module(curvature);
-  CHECK(module.name() == "Curvature" && !module.is_binary() && module.power() == 1);
+  CHECK(module.name() == "Curvature" && !module.is_binary() && module.power() == 0.5 && module.normal_weight() > 0);
   module.set_power(power);
+  module.set_normal_weight(0.1 * power);
   if (turn > 0) {
     CHECK(decimater.add(quadric));
     module.set_largest_turn(turn);
