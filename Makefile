@@ -94,7 +94,7 @@ test-c: $(LIBRARY) | packages
 	  $(PYTHON) -B -c 'import sys; compile(open(sys.argv[1]).read(), sys.argv[1], "exec")' $$script || exit 1; \
 	done
 
-# The C++ headers, with OpenMesh, CGAL and Eigen.
+# The C++ headers, with OpenMesh, CGAL and Eigen, and the README's C++.
 test-cpp: $(LIBRARY) | packages
 	CXX="$(CXX)" tests/cpp/test.sh
 
@@ -107,6 +107,7 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/moving
 	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
+	$(CMAKE_BUILD)/openmesh_decimate
 	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))

@@ -512,6 +512,35 @@ struct scalars : umb_scalars {
   }
 };
 
+/** Bytes to read, `UMB_VERTEX_` bits or `UMB_SHAPE_` constants, as calls write them: std::uint8_t or std::byte, borrowed. */
+struct bytes : umb_bytes {
+  /** None. */
+  bytes() noexcept : umb_bytes() {}
+
+  /** As C has them. */
+  bytes(const umb_bytes &view) noexcept : umb_bytes(view) {}
+
+  /** `size` bytes from `first` on, `byte_stride` apart, 0 if packed. */
+  bytes(const std::uint8_t *first, std::size_t size, std::size_t byte_stride = 0) noexcept : umb_bytes() {
+    data = first;
+    count = size;
+    stride = byte_stride;
+  }
+
+  /** All of a container. */
+  template <class Container, std::enable_if_t<detail::HOLDS_BYTES<const Container>, int> = 0>
+  bytes(const Container &container) noexcept
+      : bytes(reinterpret_cast<const std::uint8_t *>(std::data(container)), static_cast<std::size_t>(std::size(container))) {}
+
+  /** A member of each element. */
+  template <class Container, class Owner, std::enable_if_t<detail::IS_CONTIGUOUS<const Container>, int> = 0>
+  bytes(const Container &container, std::uint8_t Owner::*member) noexcept : umb_bytes() {
+    count = static_cast<std::size_t>(std::size(container));
+    if (count > 0) data = std::addressof(std::data(container)->*member);
+    stride = sizeof(typename detail::contiguous<const Container>::element);
+  }
+};
+
 /** A polyline, `#V x 2` or `#V x 3`, borrowed. From a container of vectors, or of scalars with the dimension. */
 struct polyline : umb_polyline {
   /** As C has it. */
@@ -728,12 +757,12 @@ using vectors = output<3>;
 using numbers = output<1>;
 
 /** An output of bytes, `#`: std::uint8_t or std::byte. As constructed by default: not wanted. */
-struct bytes : umb_status_output {
+struct byte_output : umb_status_output {
   /** Not wanted. */
-  bytes() noexcept : umb_status_output() {}
+  byte_output() noexcept : umb_status_output() {}
 
   /** `room` bytes from `first` on, `byte_stride` apart, 0 if packed. */
-  bytes(std::uint8_t *first, std::size_t room, std::size_t byte_stride = 0) noexcept : umb_status_output(), count(room) {
+  byte_output(std::uint8_t *first, std::size_t room, std::size_t byte_stride = 0) noexcept : umb_status_output(), count(room) {
     data = first;
     stride = byte_stride;
   }
@@ -742,12 +771,12 @@ struct bytes : umb_status_output {
   template <class Container, std::enable_if_t<detail::HOLDS_BYTES<std::remove_reference_t<Container>> &&
                                                   detail::IS_WRITABLE<std::remove_reference_t<Container>>,
                                               int> = 0>
-  bytes(Container &&container) noexcept
-      : bytes(reinterpret_cast<std::uint8_t *>(std::data(container)), static_cast<std::size_t>(std::size(container))) {}
+  byte_output(Container &&container) noexcept
+      : byte_output(reinterpret_cast<std::uint8_t *>(std::data(container)), static_cast<std::size_t>(std::size(container))) {}
 
   /** A member of each element. */
   template <class Container, class Owner, std::enable_if_t<detail::IS_WRITABLE<std::remove_reference_t<Container>>, int> = 0>
-  bytes(Container &&container, std::uint8_t Owner::*member) noexcept : umb_status_output() {
+  byte_output(Container &&container, std::uint8_t Owner::*member) noexcept : umb_status_output() {
     count = static_cast<std::size_t>(std::size(container));
     if (count > 0) data = std::addressof(std::data(container)->*member);
     stride = sizeof(typename detail::contiguous<std::remove_reference_t<Container>>::element);
@@ -760,13 +789,13 @@ struct bytes : umb_status_output {
 /** Where vertex normals go: see `umb_normal_outputs`. */
 struct normal_outputs {
   vectors normal{}, sum{};
-  bytes status{};
+  byte_output status{};
 };
 
 /** Where face normals go: see `umb_face_outputs`. */
 struct face_outputs {
   vectors normal{}, area_vector{};
-  bytes status{};
+  byte_output status{};
 };
 
 /** Where curvatures go: see `umb_curvature_outputs`. */
@@ -777,26 +806,26 @@ struct curvature_outputs {
   vectors mean_normal{};
   numbers area{}, integrated_mean{}, integrated_gaussian{}, shape_index{}, curvedness{}, residual{}, condition{}, degrees_of_freedom{};
   vectors normal{};
-  bytes status{};
+  byte_output status{};
 };
 
 /** Where sections go: see `umb_section_outputs`. */
 struct section_outputs {
   numbers curvature{};
-  bytes status{};
+  byte_output status{};
   vectors normal{};
 };
 
 /** Where curvatures of polylines go: see `umb_polyline_outputs`. */
 struct polyline_outputs {
   numbers circle{}, parabola{}, length_parabola{}, symmetric_parabola{};
-  bytes status{};
+  byte_output status{};
 };
 
 /** Where corner normals go: see `umb_corner_outputs`. `corner` is `#C x 3`, the others go by vertex of the cut mesh. */
 struct corner_outputs {
   vectors corner{}, normal{}, sum{};
-  bytes status{};
+  byte_output status{};
 };
 
 // ---- progress ----
@@ -884,7 +913,7 @@ struct section_options : detail::listing<umb_section_options> {
 /** See `umb_polyline_options`. */
 struct polyline_options : detail::runnable<umb_polyline_options> {};
 
-/** See `umb_creases`: edges sharper than `radians`, 0 for pi/6. */
+/** See `umb_creases`: edges sharper than `radians`; 0 for pi/6, or for none beside edges or groups that are marked. */
 struct creases : detail::sized<umb_creases> {
   creases(double radians = 0.0) noexcept { angle = radians; }
 
@@ -924,15 +953,13 @@ struct moved : detail::sized<umb_moved> {
   }
 
   /** Likewise, with the statuses of the results as they were, a byte for each vertex: lists get shorter. */
-  template <class Container, class Statuses>
-  moved(const Container &which, const Statuses &statuses) noexcept : moved(which) {
-    static_assert(detail::HOLDS_BYTES<const Statuses>, "statuses are bytes in a row");
-    status = reinterpret_cast<const std::uint8_t *>(std::data(statuses));
-    status_count = static_cast<std::size_t>(std::size(statuses));
+  template <class Container>
+  moved(const Container &which, const bytes &statuses) noexcept : moved(which) {
+    status = statuses;
   }
 };
 
-/** See `umb_shape_options`. */
+/** See `umb_shape_options`. Point `points` at an `umbilic::points` that has to live until the call, or use the form that takes positions. */
 struct shape_options : detail::runnable<umb_shape_options> {};
 
 /** See `umb_feature_options`: cut along creases. Point `creases` at what has to live until the call. */
@@ -941,7 +968,7 @@ struct feature_options : detail::runnable<umb_feature_options> {};
 /** See `umb_watershed_options`. Point `height` at an `umbilic::scalars` that has to live until the call. */
 struct watershed_options : detail::runnable<umb_watershed_options> {};
 
-/** See `umb_region_options`. */
+/** See `umb_region_options`. Point `creases` at what has to live until the call. */
 struct region_options : detail::runnable<umb_region_options> {};
 
 namespace detail {
@@ -1173,6 +1200,12 @@ class cut_mesh {
   span<const std::uint32_t> corners() const noexcept { return {umb_cut_corners(get()), corner_count()}; }
   /** The original vertex of each vertex of the cut mesh, ascending. */
   span<const std::uint32_t> origins() const noexcept { return {umb_cut_origins(get()), vertex_count()}; }
+  /** Where the vertices of the cut mesh that come from each original vertex start, and the end of the last: `#V + 1`. */
+  span<const std::uint32_t> starts() const noexcept {
+    // Every original vertex has at least one, so the last of these comes from the last of those.
+    const span<const std::uint32_t> from = origins();
+    return {umb_cut_starts(get()), handle_ ? (from.empty() ? 0 : std::size_t{from[from.size() - 1]} + 1) + 1 : 0};
+  }
 
  private:
   void build(const faces &loops, const points &positions, const creases &where, const topology_options &options,
@@ -1534,15 +1567,11 @@ std::vector<std::array<Scalar, 3>> corner_normals(const faces &loops, const poin
 
 // ---- what moves ----
 
-/** Lists the vertices whose normals may change, into room for `#V`; answers how many: see `umb_affected_normals`. */
+/** Lists the vertices whose normals may change, as far as there is room (none: their number alone); answers how many: see `umb_affected_normals`. */
 inline std::size_t affected_normals(topology_view mesh, const moved &which, const normal_options &options, span<std::uint32_t> room,
                                     status &result) noexcept {
   std::size_t count = 0;
-  if (room.size() < mesh.vertex_count()) {
-    result.fail(UMB_ERROR_SIZE, "the list has no room for all vertices", room.size());
-    return count;
-  }
-  result.set(umb_affected_normals(mesh.get(), &which, &options, room.data(), &count, result.room()));
+  result.set(umb_affected_normals(mesh.get(), &which, &options, room.data(), room.size(), &count, result.room()));
   return count;
 }
 /** Likewise in a new array: allocates room for `#V`, and throws. */
@@ -1553,15 +1582,11 @@ inline std::vector<std::uint32_t> affected_normals(topology_view mesh, const mov
   return list;
 }
 
-/** Lists the vertices whose curvatures may change, into room for `#V`; answers how many: see `umb_affected_curvatures`. */
+/** Likewise for curvatures: see `umb_affected_curvatures`. */
 inline std::size_t affected_curvatures(topology_view mesh, const moved &which, const curvature_options &options,
                                        span<std::uint32_t> room, status &result) noexcept {
   std::size_t count = 0;
-  if (room.size() < mesh.vertex_count()) {
-    result.fail(UMB_ERROR_SIZE, "the list has no room for all vertices", room.size());
-    return count;
-  }
-  result.set(umb_affected_curvatures(mesh.get(), &which, &options, room.data(), &count, result.room()));
+  result.set(umb_affected_curvatures(mesh.get(), &which, &options, room.data(), room.size(), &count, result.room()));
   return count;
 }
 /** Likewise in a new array: allocates room for `#V`, and throws. */
@@ -1586,17 +1611,22 @@ inline double shape_tolerance(const points &positions) {
   return tolerance;
 }
 
-/** The shape class, a `UMB_SHAPE_` constant, of each of `k1`: see `umb_shape_classes`. `positions` are for the default tolerance. */
-inline void shape_classes(const points &positions, const scalars &k1, const scalars &k2, const bytes &classes,
-                          const shape_options &options, status &result) {
+/** The shape class, a `UMB_SHAPE_` constant, of each of `k1`, by the tolerance or the points of the options: see `umb_shape_classes`. */
+inline void shape_classes(const scalars &k1, const scalars &k2, const byte_output &classes, const shape_options &options,
+                          status &result) {
   if (!detail::fits(classes, k1.count, "classes", result)) return;
   detail::run(options, result, [&](const umb_shape_options *plain, umb_error *error) {
-    return umb_shape_classes(&positions, &k1, &k2, plain, &classes, error);
+    return umb_shape_classes(&k1, &k2, plain, &classes, error);
   });
 }
-inline void shape_classes(const points &positions, const scalars &k1, const scalars &k2, const bytes &classes,
-                          const shape_options &options = shape_options()) {
-  detail::throwing([&](status &result) { shape_classes(positions, k1, k2, classes, options, result); });
+inline void shape_classes(const scalars &k1, const scalars &k2, const byte_output &classes, const shape_options &options) {
+  detail::throwing([&](status &result) { shape_classes(k1, k2, classes, options, result); });
+}
+/** Likewise, with the default tolerance by the size of the mesh. */
+inline void shape_classes(const points &positions, const scalars &k1, const scalars &k2, const byte_output &classes) {
+  shape_options options;
+  options.points = &positions;
+  shape_classes(k1, k2, classes, options);
 }
 
 namespace detail {

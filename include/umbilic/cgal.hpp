@@ -172,7 +172,7 @@ class result {
   }
 
   auto output() {
-    using Output = std::conditional_t<IS_BYTE, bytes, std::conditional_t<IS_NUMBER, numbers, vectors>>;
+    using Output = std::conditional_t<IS_BYTE, byte_output, std::conditional_t<IS_NUMBER, numbers, vectors>>;
     if constexpr (IN_PLACE) {
       return Output(const_cast<value *>(map_.data()), room_);
     } else {
@@ -264,7 +264,7 @@ host_topology build_topology(const Graph &graph, const topology_options &options
  */
 template <class Graph, class Map, class PointMap, detail::if_map<Map> = 0>
 void vertex_normals(const Graph &graph, const host_topology &rings, Map map, const normal_options &weight_or_options,
-                    const PointMap &point_map, const bytes &statuses = bytes()) {
+                    const PointMap &point_map, const byte_output &statuses = byte_output()) {
   const normal_options options = rings.restrict_to_existing(weight_or_options);
   const detail::positions<Graph, PointMap> where(graph, point_map);
   detail::result<Graph, Map> normals(graph, map);
@@ -294,7 +294,7 @@ void vertex_normals(const Graph &graph, Map map, const normal_options &weight_or
 template <class Point>
 detail::vertex_map<Point, detail::vector_at<Point>> vertex_normals(CGAL::Surface_mesh<Point> &mesh, const host_topology &rings,
                                                                    const normal_options &weight_or_options = normal_options(),
-                                                                   const bytes &statuses = bytes()) {
+                                                                   const byte_output &statuses = byte_output()) {
   using Vertex = typename CGAL::Surface_mesh<Point>::Vertex_index;
   const auto map = mesh.template add_property_map<Vertex, detail::vector_at<Point>>("v:normal").first;
   const CGAL::Surface_mesh<Point> &graph = mesh;
@@ -305,7 +305,7 @@ detail::vertex_map<Point, detail::vector_at<Point>> vertex_normals(CGAL::Surface
 template <class Point>
 detail::vertex_map<Point, detail::vector_at<Point>> vertex_normals(CGAL::Surface_mesh<Point> &mesh,
                                                                    const normal_options &weight_or_options = normal_options(),
-                                                                   const bytes &statuses = bytes()) {
+                                                                   const byte_output &statuses = byte_output()) {
   return vertex_normals(mesh, build_topology(mesh), weight_or_options, statuses);
 }
 

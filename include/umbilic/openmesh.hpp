@@ -129,7 +129,7 @@ host_topology build_topology(const Mesh &mesh, const topology_options &options =
  */
 template <class Mesh>
 void vertex_normals(Mesh &mesh, const host_topology &rings, const normal_options &weight_or_options = normal_options(),
-                    const bytes &statuses = bytes()) {
+                    const byte_output &statuses = byte_output()) {
   if (!mesh.has_vertex_normals()) mesh.request_vertex_normals();
   const normal_options options = rings.restrict_to_existing(weight_or_options);
   const detail::positions<Mesh> where(mesh);
@@ -156,7 +156,7 @@ void vertex_normals(Mesh &mesh, const host_topology &rings, const normal_options
 
 /** Likewise, with a topology for this call alone. */
 template <class Mesh>
-void vertex_normals(Mesh &mesh, const normal_options &weight_or_options = normal_options(), const bytes &statuses = bytes()) {
+void vertex_normals(Mesh &mesh, const normal_options &weight_or_options = normal_options(), const byte_output &statuses = byte_output()) {
   vertex_normals(mesh, build_topology(mesh), weight_or_options, statuses);
 }
 
@@ -165,7 +165,7 @@ void vertex_normals(Mesh &mesh, const normal_options &weight_or_options = normal
  * the corner of its face at its `to` vertex. Those of boundary halfedges stay what they were.
  *
  * @param where which edges are creases: by angle, marked, between smoothing groups (one for each face of the mesh, deleted ones included)
- * @param features whether edges whose status is `feature` are creases as well
+ * @param features whether edges whose status is `feature` are marked as well; where there are any, an angle counts only if it is given
  *
  * Copies an element for each vertex of the cut mesh.
  */

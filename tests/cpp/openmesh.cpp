@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "allocations.hpp"
 #include "check.hpp"
 
 namespace {
@@ -115,6 +116,12 @@ void whole(bool exact) {
   OpenMesh::VPropHandleT<std::uint8_t> status;
   CHECK(mesh.get_property_handle(curvedness, "v:curvedness") && mesh.get_property_handle(status, "v:curvature_status"));
   CHECK(std::abs(static_cast<double>(mesh.property(curvedness, OpenMesh::VertexHandle(40))) - 0.5) < 5e-3);
+
+  // With a topology that stands, nothing is copied (names of properties are strings).
+  const std::size_t before = allocated_bytes;
+  um::vertex_normals(mesh, rings, UMB_WEIGHT_MAX);
+  um::curvatures(mesh, rings);
+  CHECK((allocated_bytes - before < mesh.n_vertices()) == (um::detail::IN_PLACE<typename Mesh::Point>));
 
   // In the mesh's own memory: to the bit what the library writes elsewhere.
   if constexpr (um::detail::IN_PLACE<typename Mesh::Point> && std::is_same_v<typename Mesh::Point, typename Mesh::Normal>) {

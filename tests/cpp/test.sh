@@ -26,6 +26,10 @@ for compiler in "${CXX:-c++}" clang++; do
     test_program eigen "$compiler" -std=$standard -isystem /usr/include/eigen3
   done
 done
+# The README's.
+sed -n '/^```cpp$/,/^```$/p' README.md | grep -v '^```' > $built/readme.cpp
+# shellcheck disable=SC2086
+"${CXX:-c++}" -std=c++17 $strict -c $built/readme.cpp -o $built/readme.o
 # Each of these takes half a minute to compile.
 for compiler in "${CXX:-c++} -std=c++17" "clang++ -std=c++20"; do
   libraries="-lOpenMeshCore -lOpenMeshTools"

@@ -1,10 +1,8 @@
 // Every class and function of umbilic.hpp, beside the C interface. From C++17 on.
 #include "umbilic.hpp"
 
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <new>
 #include <string>
 #include <thread>
 
@@ -12,20 +10,8 @@
 #include <span>
 #endif
 
+#include "allocations.hpp"
 #include "check.hpp"
-
-// Counts what C++ allocates; the library's own memory does not come from here.
-namespace {
-std::atomic<long> allocations{0};
-}
-void *operator new(std::size_t size) {
-  allocations++;
-  void *block = std::malloc(size > 0 ? size : 1);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-void operator delete(void *block) noexcept { std::free(block); }
-void operator delete(void *block, std::size_t) noexcept { std::free(block); }
 
 namespace host {
 // Points of a host that says what they are.
@@ -74,6 +60,7 @@ struct Matrix {
 };
 
 // What is taken, and what is not.
+using umbilic::byte_output;
 using umbilic::bytes;
 using umbilic::faces;
 using umbilic::numbers;
@@ -90,7 +77,8 @@ static_assert(!std::is_constructible_v<points, List<int> &> && !std::is_construc
 static_assert(!std::is_constructible_v<points, List<std::array<float, 4>> &> && !std::is_constructible_v<points, int>);
 static_assert(std::is_constructible_v<vectors, List<Double3> &> && !std::is_constructible_v<vectors, const List<Double3> &>);
 static_assert(std::is_constructible_v<numbers, List<float> &> && !std::is_constructible_v<numbers, List<Float3> &>);
-static_assert(std::is_constructible_v<bytes, List<std::byte> &> && !std::is_constructible_v<bytes, List<char> &>);
+static_assert(std::is_constructible_v<byte_output, List<std::byte> &> && !std::is_constructible_v<byte_output, List<char> &>);
+static_assert(std::is_constructible_v<bytes, const List<std::byte> &> && !std::is_constructible_v<byte_output, const List<std::byte> &>);
 static_assert(std::is_constructible_v<faces, List<Triangle> &> && std::is_constructible_v<faces, List<int> &>);
 static_assert(std::is_constructible_v<faces, List<std::uint64_t> &> && !std::is_constructible_v<faces, List<std::uint16_t> &>);
 static_assert(!std::is_constructible_v<faces, List<float> &> && !std::is_constructible_v<faces, List<Double3> &>);
@@ -480,8 +468,10 @@ void lists() {
   CHECK(near.size() > affected.size() && near.size() < umbilic::affected_curvatures(mesh, umbilic::moved(which), jets).size());
   umbilic::status result;
   List<std::uint32_t> room(3);
-  CHECK(umbilic::affected_normals(mesh, umbilic::moved(which), {}, {room.data(), room.size()}, result) == 0 && result.value() == UMB_ERROR_SIZE);
-  CHECK(umbilic::affected_curvatures(mesh, umbilic::moved(which), {}, {room.data(), room.size()}, result) == 0 && result);
+  umbilic::affected_normals(mesh, umbilic::moved(which), {}, {room.data(), room.size()}, result);
+  CHECK(result.value() == UMB_ERROR_SIZE);
+  CHECK(umbilic::affected_normals(mesh, umbilic::moved(which), {}, {}, result) == affected.size() && !result);
+  CHECK(umbilic::affected_curvatures(mesh, umbilic::moved(which, statuses), jets, {}, result) == near.size() && !result);
 
   // What adaptive jets learn.
   umbilic::adaptive_model model = umbilic::learn_model(mesh, sphere.positions);
@@ -535,10 +525,10 @@ void curvatures() {
   CHECK(classes[40] == UMB_SHAPE_PEAK);
   CHECK(std::abs(umbilic::shape_tolerance(sphere.positions) * std::sqrt(48.0) - 1) < 0.01);
   umbilic::shape_options options;
-  options.status = status.data();
-  options.status_count = status.size();
+  options.status = bytes(status);
+  options.tolerance = 2;
   List<std::byte> raw(count);
-  umbilic::shape_classes(points(), {principal.k1}, {principal.k2}, raw, [&] { options.tolerance = 2; return options; }());
+  umbilic::shape_classes(principal.k1, principal.k2, raw, options);
   CHECK(raw[40] == std::byte{UMB_SHAPE_FLAT});
 
   // Sections.
@@ -600,6 +590,7 @@ void parts() {
   into.corner = each;
   CHECK(thrown([&] { umbilic::corner_normals(cut, CUBE, into); }, "corner") == UMB_ERROR_SIZE);
   CHECK(thrown([&] { umbilic::cut_points(cut, CUBE, each); }, "into") == UMB_ERROR_SIZE);
+  CHECK(cut.starts().size() == 9 && cut.starts()[1] == 3 && cut.starts()[8] == 24 && umbilic::cut_mesh().starts().empty());
   const umbilic::cut_mesh moved(std::move(cut));
   CHECK(!cut && cut.vertex_count() == 0 && moved.vertex_count() == 24);
 
@@ -657,7 +648,7 @@ void memory() {
   umbilic::curvature_options options;
   options.progress = go_on;
   umbilic::status result;
-  const long before = allocations;
+  const std::size_t before = allocations;
   umbilic::topology mesh(sphere.triangles, sphere.positions.size(), {}, result);
   umbilic::vertex_normals(mesh, sphere.positions, into, {}, result);
   umbilic::vertex_normals(mesh, sphere.positions, normals);
