@@ -119,6 +119,12 @@ void for_each_vertex(const Graph &graph, Visit visit) {
   }
 }
 
+/** The array of a property; CGAL asks that of an empty one for its first element. */
+template <class Map>
+const typename Map::value_type *data_of(const Map &map, std::size_t count) {
+  return count == 0 ? nullptr : map.data();
+}
+
 /** Positions as calls take them, with what had to be copied. */
 template <class Graph, class PointMap>
 class positions {
@@ -126,7 +132,7 @@ class positions {
   positions(const Graph &graph, const PointMap &map) : map_(map) {
     using Point = std::decay_t<typename boost::property_traits<PointMap>::value_type>;
     if constexpr (is_array<Graph, PointMap>() && umbilic::detail::IS_VECTOR<Point, 3>) {
-      view_ = points(map_.data(), slots(graph));
+      view_ = points(data_of(map_, slots(graph)), slots(graph));
     } else {
       copied_.resize(slots(graph));
       for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) {
@@ -174,7 +180,7 @@ class result {
   auto output() {
     using Output = std::conditional_t<IS_BYTE, byte_output, std::conditional_t<IS_NUMBER, numbers, vectors>>;
     if constexpr (IN_PLACE) {
-      return Output(const_cast<value *>(map_.data()), room_);
+      return Output(const_cast<value *>(data_of(map_, room_)), room_);
     } else {
       return Output(copied_.data(), room_);
     }

@@ -39,3 +39,5 @@ for compiler in "${CXX:-c++} -std=c++17" "clang++ -std=c++20"; do
 done
 libraries=
 test_program wrapper "${CXX:-c++}" -std=c++17 -g -fsanitize=address,undefined -fno-sanitize-recover=all
+libraries="-lOpenMeshCore -lOpenMeshTools"
+test_program openmesh "${CXX:-c++}" -std=c++17 -g -fsanitize=address,undefined -fno-sanitize-recover=all
