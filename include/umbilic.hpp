@@ -308,11 +308,59 @@ template <class Container, class = void>
 struct contiguous {
   static constexpr bool value = false;
 };
+// Eigen's, whose elements need not lie in a row: they say how far apart they are.
 template <class Container, class = void>
-constexpr bool IS_BY_ROWS = true;
+constexpr bool IS_EIGEN = false;
 template <class Matrix>
-constexpr bool IS_BY_ROWS<Matrix, std::void_t<decltype(Matrix::IsRowMajor), decltype(Matrix::IsVectorAtCompileTime)>> =
-    bool(Matrix::IsRowMajor) || bool(Matrix::IsVectorAtCompileTime);
+constexpr bool IS_EIGEN<Matrix, std::void_t<decltype(Matrix::IsRowMajor), decltype(Matrix::IsVectorAtCompileTime)>> = true;
+template <class Container>
+constexpr bool IS_MATRIX = [] {
+  if constexpr (IS_EIGEN<Container>) {
+    return !bool(Container::IsVectorAtCompileTime);
+  } else {
+    return false;
+  }
+}();
+template <class Container>
+constexpr bool IS_BY_ROWS = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return bool(Container::IsRowMajor);
+  } else {
+    return true;
+  }
+}();
+// A matrix that can have N columns; the others may be anything.
+template <class Container, std::size_t N>
+constexpr bool MAY_HAVE_COLUMNS = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return int(Container::ColsAtCompileTime) == int(N) || int(Container::ColsAtCompileTime) < 0;
+  } else {
+    return true;
+  }
+}();
+// Whether all elements lie in a row, by the type alone.
+template <class Container>
+constexpr bool IS_PACKED = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return false;
+  } else if constexpr (IS_EIGEN<Container>) {
+    return int(Container::InnerStrideAtCompileTime) == 1;
+  } else {
+    return true;
+  }
+}();
+// Whether all elements lie in a row, those of a matrix `columns` in each.
+template <class Container>
+bool is_packed(const Container &container, std::size_t columns) noexcept {
+  if constexpr (IS_MATRIX<std::remove_cv_t<Container>>) {
+    return container.innerStride() == 1 && static_cast<std::size_t>(container.cols()) == columns &&
+           (container.outerStride() == container.cols() || container.rows() < 2);
+  } else if constexpr (IS_EIGEN<std::remove_cv_t<Container>>) {
+    return container.innerStride() == 1;
+  } else {
+    return true;
+  }
+}
 template <class Container>
 struct contiguous<Container, std::void_t<decltype(*std::data(std::declval<Container &>())),
                                          decltype(std::size(std::declval<Container &>())),
@@ -343,7 +391,7 @@ template <class Container, std::size_t N>
 constexpr bool HOLDS_VECTORS = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
     using Element = typename contiguous<Container>::element;
-    return IS_SCALAR<Element> || IS_VECTOR<Element, N>;
+    return (IS_SCALAR<Element> || IS_VECTOR<Element, N>)&&MAY_HAVE_COLUMNS<std::remove_cv_t<Container>, N>;
   } else {
     return false;
   }
@@ -364,6 +412,24 @@ struct strided {
   umb_scalar scalar = UMB_SCALAR_F32;
 };
 
+// What of Eigen's is N scalars in a row, again and again; else NONE elements. A stride of 0 or less cannot be said in C.
+template <std::size_t N, class Container>
+void spread(const Container &container, strided &found) noexcept {
+  using Element = typename contiguous<const Container>::element;
+  const auto inner = container.innerStride();
+  if constexpr (IS_MATRIX<std::remove_cv_t<Container>>) {
+    const auto outer = container.outerStride();
+    const bool is_right = container.cols() == static_cast<decltype(container.cols())>(N) && (inner == 1 || N == 1) &&
+                          (outer > 0 || container.rows() < 2);
+    found.count = is_right ? static_cast<std::size_t>(container.rows()) : NONE;
+    found.stride = outer > 0 ? static_cast<std::size_t>(outer) * sizeof(Element) : 0;
+  } else {
+    const bool is_right = inner == 1 || (inner > 0 && N == 1) || container.size() < 2;
+    found.count = is_right && found.count % N == 0 ? found.count / N : NONE;
+    found.stride = (N == 1 && inner > 0 ? static_cast<std::size_t>(inner) : N) * sizeof(Element);
+  }
+}
+
 // A flat array that is no multiple of N scalars has NONE elements.
 template <std::size_t N, class Container>
 strided whole(Container &container) noexcept {
@@ -371,7 +437,11 @@ strided whole(Container &container) noexcept {
   strided found;
   found.data = std::data(container);
   found.count = static_cast<std::size_t>(std::size(container));
-  if constexpr (IS_SCALAR<Element>) {
+  if constexpr (IS_EIGEN<std::remove_cv_t<Container>>) {
+    static_assert(IS_SCALAR<Element>, "matrices are of float or double");
+    spread<N>(container, found);
+    found.scalar = SCALAR<Element>;
+  } else if constexpr (IS_SCALAR<Element>) {
     found.count = found.count % N == 0 ? found.count / N : NONE;
     found.stride = N * sizeof(Element);
     found.scalar = SCALAR<Element>;
@@ -384,6 +454,7 @@ strided whole(Container &container) noexcept {
 
 template <class Container, class Member, class Owner>
 strided by_member(Container &container, Member Owner::*member) noexcept {
+  static_assert(IS_PACKED<std::remove_cv_t<Container>>, "elements are in a row");
   strided found;
   found.count = static_cast<std::size_t>(std::size(container));
   if (found.count > 0) found.data = std::addressof(std::data(container)->*member);
@@ -395,6 +466,7 @@ strided by_member(Container &container, Member Owner::*member) noexcept {
 template <class Scalar, class Container>
 strided by_offset(Container &container, std::size_t offset) noexcept {
   static_assert(IS_SCALAR<Scalar>, "scalars are float or double");
+  static_assert(IS_PACKED<std::remove_cv_t<Container>>, "elements are in a row");
   strided found;
   found.count = static_cast<std::size_t>(std::size(container));
   if (found.count > 0) found.data = reinterpret_cast<const unsigned char *>(std::data(container)) + offset;
@@ -413,7 +485,7 @@ inline const std::uint32_t *no_indices() noexcept {
 template <class Container>
 constexpr bool HOLDS_NUMBERS = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
-    return std::is_same_v<typename contiguous<Container>::element, std::uint32_t>;
+    return std::is_same_v<typename contiguous<Container>::element, std::uint32_t> && IS_PACKED<std::remove_cv_t<Container>>;
   } else {
     return false;
   }
@@ -422,7 +494,7 @@ template <class Container>
 constexpr bool HOLDS_BYTES = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
     using Element = typename contiguous<Container>::element;
-    return std::is_same_v<Element, std::uint8_t> || std::is_same_v<Element, std::byte>;
+    return (std::is_same_v<Element, std::uint8_t> || std::is_same_v<Element, std::byte>)&&IS_PACKED<std::remove_cv_t<Container>>;
   } else {
     return false;
   }
@@ -434,8 +506,8 @@ constexpr bool HOLDS_BYTES = [] {
 
 /**
  * Positions, or normals or directions where an option says so: `# x 3`, `float` or `double`, borrowed. From a container of vectors (see
- * `vector_traits`) or of scalars, three in a row for each; a row-major Eigen matrix is one of scalars. A flat array whose length is no multiple
- * of three is refused by the call (`UMB_ERROR_SIZE`).
+ * `vector_traits`) or of scalars, three in a row for each, or from a row-major Eigen matrix or a block of one, with its strides. A flat array
+ * whose length is no multiple of three is refused by the call (`UMB_ERROR_SIZE`), as is a matrix that has not three columns.
  */
 struct points : umb_points {
   /** None. */
@@ -595,12 +667,18 @@ struct faces : umb_faces {
     arity = static_cast<std::uint32_t>(vector_traits<Element>::size);
   }
 
+  /** Triangles from a container of integers; from a matrix faces of as many corners as it has columns. */
+  template <class Container,
+            std::enable_if_t<detail::IS_INDEX<typename detail::contiguous<const Container>::element>, int> = 0>
+  faces(const Container &container) noexcept : faces(container, columns(container)) {}
+
   /** Faces of `corners` corners each, from a container of integers. */
   template <class Container,
             std::enable_if_t<detail::IS_INDEX<typename detail::contiguous<const Container>::element>, int> = 0>
-  faces(const Container &container, std::uint32_t corners = 3) noexcept : umb_faces() {
+  faces(const Container &container, std::uint32_t corners) noexcept : umb_faces() {
     take(std::data(container), static_cast<std::size_t>(std::size(container)));
     arity = corners;
+    if (index_count > 0 && !detail::is_packed(container, corners)) refuse();
   }
 
   /** Polygons: face `f` has the indices from `starts[f]` up to `starts[f + 1]`; both are of one integer type. */
@@ -612,6 +690,7 @@ struct faces : umb_faces {
   faces(const Container &container, const Offsets &starts) noexcept : umb_faces() {
     take(std::data(container), static_cast<std::size_t>(std::size(container)));
     start(std::data(starts), static_cast<std::size_t>(std::size(starts)));
+    if (!is_row(container) || !is_row(starts)) refuse();
   }
 
   /** `count` indices from `data` on, faces of `corners` corners each. */
@@ -642,6 +721,23 @@ struct faces : umb_faces {
     offsets = count == 0 ? nullptr : starts;
     // Without any offset there may be no index: else this number of faces is refused.
     face_count = count == 0 ? (index_count == 0 ? 0 : detail::NONE) : count - 1;
+  }
+  // C has no strides of indices: what is not in a row gets a number of faces that no offsets can have.
+  void refuse() noexcept {
+    offsets = indices;
+    face_count = detail::NONE;
+  }
+  template <class Container>
+  static bool is_row(const Container &container) noexcept {
+    return !detail::IS_MATRIX<Container> && detail::is_packed(container, 0);
+  }
+  template <class Container>
+  static std::uint32_t columns(const Container &container) noexcept {
+    if constexpr (detail::IS_MATRIX<Container>) {
+      return static_cast<std::uint32_t>(container.cols());
+    } else {
+      return 3;
+    }
   }
 };
 
@@ -924,8 +1020,8 @@ struct creases : detail::sized<umb_creases> {
     const auto count = static_cast<std::size_t>(std::size(pairs));
     if constexpr (std::is_same_v<Element, std::uint32_t>) {
       edges = std::data(pairs);
-      // An odd number is refused.
-      edge_count = count % 2 == 0 ? count / 2 : detail::NONE;
+      // An odd number is refused, and what is not in a row.
+      edge_count = count % 2 == 0 && (count == 0 || detail::is_packed(pairs, 2)) ? count / 2 : detail::NONE;
     } else {
       static_assert(std::is_same_v<typename vector_traits<Element>::scalar, std::uint32_t> && vector_traits<Element>::size == 2,
                     "edges are pairs of std::uint32_t");

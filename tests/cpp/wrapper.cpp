@@ -55,6 +55,7 @@ struct Vertex {
 template <bool Rows>
 struct Matrix {
   static constexpr bool IsRowMajor = Rows, IsVectorAtCompileTime = false;
+  static constexpr int ColsAtCompileTime = 3;
   const double *data() const { return nullptr; }
   long size() const { return 0; }
 };
