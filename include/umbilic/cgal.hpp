@@ -16,8 +16,10 @@
  * written into maps of Surface_mesh where they belong. Everything else is converted: points by CGAL::to_double (EPECK: the exact
  * value is rounded), results by way of an array and `put`. Labels of segments and halfedge normals are copied.
  *
- * Removed elements of Surface_mesh, before `collect_garbage()`: removed faces count for nothing, and results of removed elements stay what they were.
- * Adaptive jets without a model learn from all positions, so those of removed vertices have to be finite.
+ * Removed elements of Surface_mesh, before `collect_garbage()`: removed faces count for nothing, and results of removed elements stay what they were,
+ * unless the caller's own list names one: zeros are written there. Positions of removed vertices have to be finite for halfedge normals, segments
+ * and adaptive jets without a model, and count in the bounding box that default tolerances go by; where points are converted, those of removed
+ * vertices are put where another vertex is.
  *
  * Vertices are numbered (in lists, statuses, boundary edges) as in Surface_mesh, `idx()`, and in other graphs in the order of `vertices(graph)`;
  * faces in the order of `faces(graph)`. Errors are thrown, as `umbilic::error` (see umbilic.hpp).
@@ -85,11 +87,11 @@ constexpr bool IS_MAP<Map, std::void_t<typename Map::key_type, typename Map::val
 template <class Map>
 using if_map = std::enable_if_t<IS_MAP<Map>, int>;
 
-/** Whether a map is a property of a Surface_mesh, whose elements lie in one array by `idx()`. */
+/** Whether a map is a property of a Surface_mesh's vertices, whose elements lie in one array by `idx()`. */
 template <class Graph, class Map>
 constexpr bool is_array() {
   if constexpr (IS_SURFACE_MESH<Graph> && IS_MAP<Map>) {
-    return std::is_same_v<Map, typename Graph::template Property_map<typename Map::key_type, typename Map::value_type>>;
+    return std::is_same_v<Map, typename Graph::template Property_map<typename Graph::Vertex_index, typename Map::value_type>>;
   } else {
     return false;
   }
@@ -125,9 +127,15 @@ const typename Map::value_type *data_of(const Map &map, std::size_t count) {
   return count == 0 ? nullptr : map.data();
 }
 
+/** Whether a map's keys are vertices: the array of any other property is too short, or too long. */
+template <class Graph, class Map>
+constexpr bool TAKES_VERTICES = std::is_convertible_v<vertex_of<Graph>, typename boost::property_traits<Map>::key_type>;
+
 /** Positions as calls take them, with what had to be copied. */
 template <class Graph, class PointMap>
 class positions {
+  static_assert(TAKES_VERTICES<Graph, PointMap>, "points belong to vertices");
+
  public:
   positions(const Graph &graph, const PointMap &map) : map_(map) {
     using Point = std::decay_t<typename boost::property_traits<PointMap>::value_type>;
@@ -135,10 +143,18 @@ class positions {
       view_ = points(data_of(map_, slots(graph)), slots(graph));
     } else {
       copied_.resize(slots(graph));
+      // Removed vertices lie where another does: anywhere else they would widen the bounding box that default tolerances go by.
+      std::vector<bool> is_there(copied_.size());
+      const std::array<double, 3> *first = nullptr;
       for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) {
         const auto &point = get(map, vertex);
         copied_[slot] = {CGAL::to_double(point.x()), CGAL::to_double(point.y()), CGAL::to_double(point.z())};
+        is_there[slot] = true;
+        if (first == nullptr) first = &copied_[slot];
       });
+      for (std::size_t slot = 0; slot < copied_.size() && first != nullptr; slot++) {
+        if (!is_there[slot]) copied_[slot] = *first;
+      }
       view_ = points(copied_);
     }
   }
@@ -165,6 +181,8 @@ Vector vector_from(const std::array<double, 3> &values) {
 /** Results on their way to a map: its own array, or one that is put into it afterwards. */
 template <class Graph, class Map>
 class result {
+  static_assert(TAKES_VERTICES<Graph, Map>, "results belong to vertices");
+
  public:
   using value = typename Map::value_type;
   static constexpr bool IS_BYTE = std::is_same_v<value, std::uint8_t>;

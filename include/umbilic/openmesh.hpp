@@ -15,8 +15,9 @@
  * by default; else they are converted by way of an array of doubles. Halfedge normals and labels of segments are copied from where they
  * were computed.
  *
- * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were. Adaptive
- * jets without a model learn from all positions, so those of deleted vertices have to be finite.
+ * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were,
+ * unless the caller's own list names one: zeros are written there. Positions of deleted vertices have to be finite for halfedge normals, segments
+ * and adaptive jets without a model, and count in the bounding box that default tolerances go by.
  *
  * Errors are thrown, as `umbilic::error` (see umbilic.hpp). A property that has one of the names but another type is left alone, and another
  * added beside it.
