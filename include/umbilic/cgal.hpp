@@ -406,7 +406,7 @@ void connect(result<Graph, Map> &from, quantities bit, curvature_outputs &into) 
   }
   if (!known) {
     status wrong;
-    wrong.fail(UMB_ERROR_NOT_APPLICABLE, "a map is not of the type of the quantity that it shall receive", bit);
+    wrong.fail(UMB_ERROR_NOT_APPLICABLE, "a map is not of the type of the quantity that it shall receive", static_cast<std::uint64_t>(bit));
     wrong.raise();
   }
 }
@@ -481,7 +481,7 @@ curvature_properties<Point> curvatures(CGAL::Surface_mesh<Point> &mesh, const ho
   vectors_to.reserve(std::size(umbilic::detail::NAMED_VECTORS));
   bytes_to.reserve(1);
   for (const auto &named : umbilic::detail::NAMED_NUMBERS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     const Numbers map = mesh.template add_property_map<Vertex, detail::scalar_at<Point>>(named.name).first;
     numbers_to.emplace_back(mesh, map);
     detail::connect(numbers_to.back(), named.bit, into);
@@ -491,14 +491,14 @@ curvature_properties<Point> curvatures(CGAL::Surface_mesh<Point> &mesh, const ho
     if (named.bit == quantity::gaussian) found.gauss = map;
   }
   for (const auto &named : umbilic::detail::NAMED_VECTORS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     const Vectors map = mesh.template add_property_map<Vertex, detail::vector_at<Point>>(named.name).first;
     vectors_to.emplace_back(mesh, map);
     detail::connect(vectors_to.back(), named.bit, into);
     if (named.bit == quantity::direction1) found.dir1 = map;
     if (named.bit == quantity::direction2) found.dir2 = map;
   }
-  if (wanted & quantity::status) {
+  if (umbilic::detail::has(wanted, quantity::status)) {
     bytes_to.emplace_back(mesh, mesh.template add_property_map<Vertex, std::uint8_t>(umbilic::detail::STATUS_NAME).first);
     detail::connect(bytes_to.back(), quantity::status, into);
   }

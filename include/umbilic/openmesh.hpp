@@ -239,7 +239,7 @@ curvature_properties<Mesh> curvatures(Mesh &mesh, const host_topology &rings, co
   curvature_properties<Mesh> found;
   curvature_outputs into;
   for (const auto &named : umbilic::detail::NAMED_NUMBERS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     Number property;
     detail::have(mesh, property, named.name);
     into.*named.output = detail::array_of(mesh, property);
@@ -249,14 +249,14 @@ curvature_properties<Mesh> curvatures(Mesh &mesh, const host_topology &rings, co
     if (named.bit == quantity::gaussian) found.gauss = property;
   }
   for (const auto &named : umbilic::detail::NAMED_VECTORS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     Vector property;
     detail::have(mesh, property, named.name);
     into.*named.output = detail::array_of(mesh, property);
     if (named.bit == quantity::direction1) found.dir1 = property;
     if (named.bit == quantity::direction2) found.dir2 = property;
   }
-  if (wanted & quantity::status) {
+  if (umbilic::detail::has(wanted, quantity::status)) {
     OpenMesh::VPropHandleT<std::uint8_t> property;
     detail::have(mesh, property, umbilic::detail::STATUS_NAME);
     into.status = detail::array_of(mesh, property);
