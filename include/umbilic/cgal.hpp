@@ -347,10 +347,11 @@ void halfedge_normals(const Graph &graph, Map map, const creases &where, const n
   corner_outputs into;
   into.normal = normals;
   corner_normals(cut, positions, into, weight_or_options);
+  const span<const std::uint32_t> corners = cut.corners();
   std::size_t corner = 0;
   for (const auto face : faces(graph)) {
     for (const auto side : CGAL::halfedges_around_face(halfedge(face, graph), graph)) {
-      const std::array<double, 3> &normal = normals[cut.corners()[corner++]];
+      const std::array<double, 3> &normal = normals[corners[corner++]];
       put(map, side, detail::vector_from<typename Map::value_type>(normal));
     }
   }
@@ -419,25 +420,29 @@ void connect(result<Graph, Map> &from, quantities bit, curvature_outputs &into) 
  * @param options the method; by default adaptive jets
  * @param point_map from vertices to points
  */
-template <class Graph, class PointMap, class... Maps, detail::if_map<PointMap> = 0>
+template <class Graph, class PointMap, class First, class... Maps, detail::if_map<PointMap> = 0>
 void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const PointMap &point_map,
-                const destination<Maps> &...wanted) {
+                const destination<First> &first, const destination<Maps> &...wanted) {
   const curvature_options existing = rings.restrict_to_existing(options);
   const detail::positions<Graph, PointMap> where(graph, point_map);
-  std::tuple<detail::result<Graph, Maps>...> results(detail::result<Graph, Maps>(graph, wanted.map)...);
+  std::tuple<detail::result<Graph, First>, detail::result<Graph, Maps>...> results(detail::result<Graph, First>(graph, first.map),
+                                                                                  detail::result<Graph, Maps>(graph, wanted.map)...);
   std::apply(
-      [&](auto &...result) {
+      [&](auto &first_result, auto &...result) {
         curvature_outputs into;
+        detail::connect(first_result, first.bit, into);
         (detail::connect(result, wanted.bit, into), ...);
         umbilic::curvatures(rings, where, into, existing);
+        first_result.finish(graph, existing.run);
         (result.finish(graph, existing.run), ...);
       },
       results);
 }
 /** Likewise, with the graph's own points. */
-template <class Graph, class... Maps>
-void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const destination<Maps> &...wanted) {
-  curvatures(graph, rings, options, get(CGAL::vertex_point, graph), wanted...);
+template <class Graph, class First, class... Maps>
+void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const destination<First> &first,
+                const destination<Maps> &...wanted) {
+  curvatures(graph, rings, options, get(CGAL::vertex_point, graph), first, wanted...);
 }
 /** Likewise, with a topology for this call alone. */
 template <class Graph, class First, class... Maps>
@@ -531,8 +536,9 @@ segmentation segment(const Graph &graph, Map map, const Options &options, const 
   using CGAL::faces;
   const detail::positions<Graph, PointMap> positions(graph, point_map);
   segmentation found = umbilic::segment(polygons_of(graph), positions, options);
+  const span<const std::uint32_t> labels = found.labels();
   std::size_t number = 0;
-  for (const auto face : faces(graph)) put(map, face, static_cast<typename Map::value_type>(found.labels()[number++]));
+  for (const auto face : faces(graph)) put(map, face, static_cast<typename Map::value_type>(labels[number++]));
   return found;
 }
 /** Likewise, with the graph's own points. */

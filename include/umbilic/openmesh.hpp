@@ -183,7 +183,8 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
       marked.push_back(static_cast<std::uint32_t>(mesh.from_vertex_handle(halfedge).idx()));
       marked.push_back(static_cast<std::uint32_t>(mesh.to_vertex_handle(halfedge).idx()));
     }
-    if (!marked.empty()) {
+    // Edges that are no pairs are left for the call to refuse.
+    if (!marked.empty() && where.edge_count != umbilic::detail::NONE) {
       if (where.edges != nullptr) marked.insert(marked.end(), where.edges, where.edges + 2 * where.edge_count);
       all.mark(marked);
     }
@@ -201,10 +202,11 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
   into.normal = normals;
   corner_normals(cut, positions, into, weight_or_options);
   if (!mesh.has_halfedge_normals()) mesh.request_halfedge_normals();
+  const span<const std::uint32_t> corners = cut.corners();
   std::size_t corner = 0;
   for (const auto face : mesh.faces()) {
     for (const auto halfedge : mesh.fh_range(face)) {
-      const std::array<Scalar, 3> &normal = normals[cut.corners()[corner++]];
+      const std::array<Scalar, 3> &normal = normals[corners[corner++]];
       typename Mesh::Normal copied;
       for (std::size_t k = 0; k < 3; k++) copied[k] = static_cast<std::decay_t<decltype(copied[0])>>(normal[k]);
       mesh.set_normal(halfedge, copied);
@@ -295,8 +297,9 @@ segmentation segment(Mesh &mesh, const Options &options) {
   segmentation found = umbilic::segment(polygons_of(mesh), positions, options);
   OpenMesh::FPropHandleT<std::uint32_t> property;
   detail::have(mesh, property, "f:segment");
+  const span<const std::uint32_t> labels = found.labels();
   std::size_t number = 0;
-  for (const auto face : mesh.faces()) mesh.property(property, face) = found.labels()[number++];
+  for (const auto face : mesh.faces()) mesh.property(property, face) = labels[number++];
   return found;
 }
 

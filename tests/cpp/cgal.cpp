@@ -38,6 +38,14 @@ using Vertices = Mesh<Simple>::Property_map<Mesh<Simple>::Vertex_index, double>;
 static_assert(!uc::detail::is_array<Mesh<Simple>, Faces>() && !uc::detail::TAKES_VERTICES<Mesh<Simple>, Faces>);
 static_assert(uc::detail::is_array<Mesh<Simple>, Vertices>() && uc::detail::TAKES_VERTICES<Mesh<Simple>, Vertices>);
 
+// Without a map there is nothing to compute.
+template <class Graph, class = void>
+constexpr bool COMPUTES_NOTHING = false;
+template <class Graph>
+constexpr bool COMPUTES_NOTHING<Graph, std::void_t<decltype(uc::curvatures(std::declval<const Graph &>(), std::declval<const umbilic::host_topology &>(),
+                                                                           umbilic::curvature_options()))>> = true;
+static_assert(!COMPUTES_NOTHING<CGAL::Polyhedron_3<Simple>>);
+
 // A sphere of radius 2, of quads or triangles.
 template <class Graph>
 Graph sphere(bool triangles, int around = 32, int across = 16) {
