@@ -45,11 +45,15 @@
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
 #define UMBILIC_EXCEPTIONS 1
+#define UMBILIC_VARIANT with_exceptions
 #else
 #define UMBILIC_EXCEPTIONS 0
+#define UMBILIC_VARIANT without_exceptions
 #endif
 
 namespace umbilic {
+// A program may hold parts with and without exceptions: their functions differ, so their names do.
+inline namespace UMBILIC_VARIANT {
 
 // ---- errors ----
 
@@ -1927,6 +1931,7 @@ class host_topology : public topology {
   bool has_gaps_ = false;
 };
 
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_HPP

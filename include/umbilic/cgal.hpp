@@ -40,6 +40,7 @@
 #include <CGAL/number_utils.h>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 
 namespace detail {
 
@@ -556,6 +557,7 @@ segmentation segment(CGAL::Surface_mesh<Point> &mesh, const Options &options) {
 }
 
 }  // namespace cgal
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_CGAL_HPP

@@ -35,6 +35,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 namespace openmesh {
 
 namespace detail {
@@ -304,6 +305,7 @@ segmentation segment(Mesh &mesh, const Options &options) {
 }
 
 }  // namespace openmesh
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_OPENMESH_HPP

@@ -20,6 +20,7 @@
 #include <cmath>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 namespace openmesh {
 
 /**
@@ -150,6 +151,7 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
 };
 
 }  // namespace openmesh
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_OPENMESH_DECIMATER_HPP

@@ -710,6 +710,7 @@ static_assert(!std::is_convertible_v<umb_curvature_method, umbilic::quantities> 
 using Answers = bool(double);
 static_assert(std::is_constructible_v<umbilic::progress_reference, Answers &>);
 static_assert(!std::is_constructible_v<umbilic::progress_reference, int (&)(double)>);
+static_assert(std::is_same_v<umbilic::points, umbilic::with_exceptions::points>, "other names than without exceptions");
 
 int asked = 0;
 bool ask(double) { return ++asked < 0; }
