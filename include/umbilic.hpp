@@ -16,7 +16,8 @@
  * allocated beyond what the C functions do, but where a function returns a std::vector.
  *
  * Errors. Every function comes twice: one throws `umbilic::error`; the other takes an `umbilic::status &` at the end, throws
- * nothing, and sets it. An output that is a container is checked for its length, which C cannot do (`UMB_ERROR_SIZE`). What a progress
+ * nothing, and sets it. Those that allocate a std::vector, `shape_classes` by positions, and all of the headers for hosts only throw; a
+ * `status` does not keep `polygons` and what else is copied from running out of memory. An output that is a container is checked for its length, which C cannot do (`UMB_ERROR_SIZE`). What a progress
  * callback throws passes through both, after the call has been cancelled. Without exceptions (`-fno-exceptions`) the
  * throwing forms end the process.
  *
@@ -44,11 +45,15 @@
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
 #define UMBILIC_EXCEPTIONS 1
+#define UMBILIC_VARIANT with_exceptions
 #else
 #define UMBILIC_EXCEPTIONS 0
+#define UMBILIC_VARIANT without_exceptions
 #endif
 
 namespace umbilic {
+// A program may hold parts with and without exceptions: their functions differ, so their names do.
+inline namespace UMBILIC_VARIANT {
 
 // ---- errors ----
 
@@ -199,7 +204,7 @@ struct vector_traits {
 
 namespace detail {
 
-constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
 
 template <class T>
 constexpr bool IS_SCALAR = std::is_same_v<T, float> || std::is_same_v<T, double>;
@@ -308,11 +313,59 @@ template <class Container, class = void>
 struct contiguous {
   static constexpr bool value = false;
 };
+// Eigen's, whose elements need not lie in a row: they say how far apart they are.
 template <class Container, class = void>
-constexpr bool IS_BY_ROWS = true;
+constexpr bool IS_EIGEN = false;
 template <class Matrix>
-constexpr bool IS_BY_ROWS<Matrix, std::void_t<decltype(Matrix::IsRowMajor), decltype(Matrix::IsVectorAtCompileTime)>> =
-    bool(Matrix::IsRowMajor) || bool(Matrix::IsVectorAtCompileTime);
+constexpr bool IS_EIGEN<Matrix, std::void_t<decltype(Matrix::IsRowMajor), decltype(Matrix::IsVectorAtCompileTime)>> = true;
+template <class Container>
+constexpr bool IS_MATRIX = [] {
+  if constexpr (IS_EIGEN<Container>) {
+    return !bool(Container::IsVectorAtCompileTime);
+  } else {
+    return false;
+  }
+}();
+template <class Container>
+constexpr bool IS_BY_ROWS = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return bool(Container::IsRowMajor);
+  } else {
+    return true;
+  }
+}();
+// A matrix that can have N columns; the others may be anything.
+template <class Container, std::size_t N>
+constexpr bool MAY_HAVE_COLUMNS = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return int(Container::ColsAtCompileTime) == int(N) || int(Container::ColsAtCompileTime) < 0;
+  } else {
+    return true;
+  }
+}();
+// Whether all elements lie in a row, by the type alone.
+template <class Container>
+constexpr bool IS_PACKED = [] {
+  if constexpr (IS_MATRIX<Container>) {
+    return false;
+  } else if constexpr (IS_EIGEN<Container>) {
+    return int(Container::InnerStrideAtCompileTime) == 1;
+  } else {
+    return true;
+  }
+}();
+// Whether all elements lie in a row, those of a matrix `columns` in each.
+template <class Container>
+bool is_packed(const Container &container, std::size_t columns) noexcept {
+  if constexpr (IS_MATRIX<std::remove_cv_t<Container>>) {
+    return container.innerStride() == 1 && static_cast<std::size_t>(container.cols()) == columns &&
+           (container.outerStride() == container.cols() || container.rows() < 2);
+  } else if constexpr (IS_EIGEN<std::remove_cv_t<Container>>) {
+    return container.innerStride() == 1;
+  } else {
+    return true;
+  }
+}
 template <class Container>
 struct contiguous<Container, std::void_t<decltype(*std::data(std::declval<Container &>())),
                                          decltype(std::size(std::declval<Container &>())),
@@ -335,6 +388,20 @@ constexpr bool IS_WRITABLE = [] {
   }
 }();
 
+// A span, which may be gone before what it shows.
+template <class Container, class = void>
+constexpr bool IS_VIEW = false;
+template <class Container>
+constexpr bool IS_VIEW<Container, std::void_t<typename Container::element_type>> = true;
+
+// An output has to be there after the call: a temporary view may go, but not a container of its own memory.
+template <class Container, class = void>
+constexpr bool OUTLIVES = true;
+template <class Container>
+constexpr bool OUTLIVES<Container, std::void_t<typename Container::allocator_type>> = false;
+template <class Container>
+constexpr bool IS_TARGET = IS_WRITABLE<std::remove_reference_t<Container>> && OUTLIVES<Container>;
+
 // T is a vector of N scalars, or, for N = 1, a scalar.
 template <class T, std::size_t N>
 constexpr bool IS_VECTOR = vector_traits<T>::size == N && IS_SCALAR<typename vector_traits<T>::scalar>;
@@ -343,7 +410,7 @@ template <class Container, std::size_t N>
 constexpr bool HOLDS_VECTORS = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
     using Element = typename contiguous<Container>::element;
-    return IS_SCALAR<Element> || IS_VECTOR<Element, N>;
+    return (IS_SCALAR<Element> || IS_VECTOR<Element, N>)&&MAY_HAVE_COLUMNS<std::remove_cv_t<Container>, N>;
   } else {
     return false;
   }
@@ -364,6 +431,24 @@ struct strided {
   umb_scalar scalar = UMB_SCALAR_F32;
 };
 
+// What of Eigen's is N scalars in a row, again and again; else NONE elements. A stride of 0 or less cannot be said in C.
+template <std::size_t N, class Container>
+void spread(const Container &container, strided &found) noexcept {
+  using Element = typename contiguous<const Container>::element;
+  const auto inner = container.innerStride();
+  if constexpr (IS_MATRIX<std::remove_cv_t<Container>>) {
+    const auto outer = container.outerStride();
+    const bool is_right = container.cols() == static_cast<decltype(container.cols())>(N) && (inner == 1 || N == 1) &&
+                          (outer > 0 || container.rows() < 2);
+    found.count = is_right ? static_cast<std::size_t>(container.rows()) : NONE;
+    found.stride = outer > 0 ? static_cast<std::size_t>(outer) * sizeof(Element) : 0;
+  } else {
+    const bool is_right = inner == 1 || (inner > 0 && N == 1) || container.size() < 2;
+    found.count = is_right && found.count % N == 0 ? found.count / N : NONE;
+    found.stride = (N == 1 && inner > 0 ? static_cast<std::size_t>(inner) : N) * sizeof(Element);
+  }
+}
+
 // A flat array that is no multiple of N scalars has NONE elements.
 template <std::size_t N, class Container>
 strided whole(Container &container) noexcept {
@@ -371,7 +456,11 @@ strided whole(Container &container) noexcept {
   strided found;
   found.data = std::data(container);
   found.count = static_cast<std::size_t>(std::size(container));
-  if constexpr (IS_SCALAR<Element>) {
+  if constexpr (IS_EIGEN<std::remove_cv_t<Container>>) {
+    static_assert(IS_SCALAR<Element>, "matrices are of float or double");
+    spread<N>(container, found);
+    found.scalar = SCALAR<Element>;
+  } else if constexpr (IS_SCALAR<Element>) {
     found.count = found.count % N == 0 ? found.count / N : NONE;
     found.stride = N * sizeof(Element);
     found.scalar = SCALAR<Element>;
@@ -384,6 +473,7 @@ strided whole(Container &container) noexcept {
 
 template <class Container, class Member, class Owner>
 strided by_member(Container &container, Member Owner::*member) noexcept {
+  static_assert(IS_PACKED<std::remove_cv_t<Container>>, "elements are in a row");
   strided found;
   found.count = static_cast<std::size_t>(std::size(container));
   if (found.count > 0) found.data = std::addressof(std::data(container)->*member);
@@ -395,6 +485,7 @@ strided by_member(Container &container, Member Owner::*member) noexcept {
 template <class Scalar, class Container>
 strided by_offset(Container &container, std::size_t offset) noexcept {
   static_assert(IS_SCALAR<Scalar>, "scalars are float or double");
+  static_assert(IS_PACKED<std::remove_cv_t<Container>>, "elements are in a row");
   strided found;
   found.count = static_cast<std::size_t>(std::size(container));
   if (found.count > 0) found.data = reinterpret_cast<const unsigned char *>(std::data(container)) + offset;
@@ -413,7 +504,7 @@ inline const std::uint32_t *no_indices() noexcept {
 template <class Container>
 constexpr bool HOLDS_NUMBERS = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
-    return std::is_same_v<typename contiguous<Container>::element, std::uint32_t>;
+    return std::is_same_v<typename contiguous<Container>::element, std::uint32_t> && IS_PACKED<std::remove_cv_t<Container>>;
   } else {
     return false;
   }
@@ -422,7 +513,7 @@ template <class Container>
 constexpr bool HOLDS_BYTES = [] {
   if constexpr (IS_CONTIGUOUS<Container>) {
     using Element = typename contiguous<Container>::element;
-    return std::is_same_v<Element, std::uint8_t> || std::is_same_v<Element, std::byte>;
+    return (std::is_same_v<Element, std::uint8_t> || std::is_same_v<Element, std::byte>)&&IS_PACKED<std::remove_cv_t<Container>>;
   } else {
     return false;
   }
@@ -434,8 +525,8 @@ constexpr bool HOLDS_BYTES = [] {
 
 /**
  * Positions, or normals or directions where an option says so: `# x 3`, `float` or `double`, borrowed. From a container of vectors (see
- * `vector_traits`) or of scalars, three in a row for each; a row-major Eigen matrix is one of scalars. A flat array whose length is no multiple
- * of three is refused by the call (`UMB_ERROR_SIZE`).
+ * `vector_traits`) or of scalars, three in a row for each, or from a row-major Eigen matrix or a block of one, with its strides. A flat array
+ * whose length is no multiple of three is refused by the call (`UMB_ERROR_SIZE`), as is a matrix that has not three columns.
  */
 struct points : umb_points {
   /** None. */
@@ -595,12 +686,18 @@ struct faces : umb_faces {
     arity = static_cast<std::uint32_t>(vector_traits<Element>::size);
   }
 
+  /** Triangles from a container of integers; from a matrix faces of as many corners as it has columns. */
+  template <class Container,
+            std::enable_if_t<detail::IS_INDEX<typename detail::contiguous<const Container>::element>, int> = 0>
+  faces(const Container &container) noexcept : faces(container, columns(container)) {}
+
   /** Faces of `corners` corners each, from a container of integers. */
   template <class Container,
             std::enable_if_t<detail::IS_INDEX<typename detail::contiguous<const Container>::element>, int> = 0>
-  faces(const Container &container, std::uint32_t corners = 3) noexcept : umb_faces() {
+  faces(const Container &container, std::uint32_t corners) noexcept : umb_faces() {
     take(std::data(container), static_cast<std::size_t>(std::size(container)));
     arity = corners;
+    if (index_count > 0 && !detail::is_packed(container, corners)) refuse();
   }
 
   /** Polygons: face `f` has the indices from `starts[f]` up to `starts[f + 1]`; both are of one integer type. */
@@ -612,6 +709,7 @@ struct faces : umb_faces {
   faces(const Container &container, const Offsets &starts) noexcept : umb_faces() {
     take(std::data(container), static_cast<std::size_t>(std::size(container)));
     start(std::data(starts), static_cast<std::size_t>(std::size(starts)));
+    if (!is_row(container) || !is_row(starts)) refuse();
   }
 
   /** `count` indices from `data` on, faces of `corners` corners each. */
@@ -643,12 +741,45 @@ struct faces : umb_faces {
     // Without any offset there may be no index: else this number of faces is refused.
     face_count = count == 0 ? (index_count == 0 ? 0 : detail::NONE) : count - 1;
   }
+  // C has no strides of indices: what is not in a row gets a number of faces that no offsets can have.
+  void refuse() noexcept {
+    offsets = indices;
+    face_count = detail::NONE;
+  }
+  template <class Container>
+  static bool is_row(const Container &container) noexcept {
+    return !detail::IS_MATRIX<Container> && detail::is_packed(container, 0);
+  }
+  template <class Container>
+  static std::uint32_t columns(const Container &container) noexcept {
+    if constexpr (detail::IS_MATRIX<Container>) {
+      return static_cast<std::uint32_t>(container.cols());
+    } else {
+      return 3;
+    }
+  }
 };
 
 /** Polygons that are not in a row, copied into one: 4 bytes for each corner and each face. */
 class polygons {
  public:
   polygons() = default;
+  polygons(const polygons &) = default;
+  polygons &operator=(const polygons &) = default;
+  /** Empty once it has been moved from. */
+  polygons(polygons &&other) noexcept
+      : indices_(std::exchange(other.indices_, {})),
+        offsets_(std::exchange(other.offsets_, {})),
+        face_count_(std::exchange(other.face_count_, 0)),
+        triangles_(std::exchange(other.triangles_, true)) {}
+  polygons &operator=(polygons &&other) noexcept {
+    polygons taken(std::move(other));
+    std::swap(indices_, taken.indices_);
+    std::swap(offsets_, taken.offsets_);
+    std::swap(face_count_, taken.face_count_);
+    std::swap(triangles_, taken.triangles_);
+    return *this;
+  }
 
   /** From a range of ranges of indices: `std::vector<std::vector<int>>`. */
   template <class Range>
@@ -722,13 +853,13 @@ struct output : umb_output {
 
   /** All of a container. */
   template <class Container, std::enable_if_t<detail::HOLDS_VECTORS<std::remove_reference_t<Container>, Components> &&
-                                                  detail::IS_WRITABLE<std::remove_reference_t<Container>>,
+                                                  detail::IS_TARGET<Container>,
                                               int> = 0>
   output(Container &&container) noexcept : output(detail::whole<Components>(container)) {}
 
   /** A member of each element. */
   template <class Container, class Member, class Owner,
-            std::enable_if_t<detail::IS_WRITABLE<std::remove_reference_t<Container>> && detail::IS_VECTOR_MEMBER<Member, Components> &&
+            std::enable_if_t<detail::IS_TARGET<Container> && detail::IS_VECTOR_MEMBER<Member, Components> &&
                                  !std::is_const_v<Member>,
                              int> = 0>
   output(Container &&container, Member Owner::*member) noexcept : output(detail::by_member(container, member)) {}
@@ -769,13 +900,13 @@ struct byte_output : umb_status_output {
 
   /** All of a container. */
   template <class Container, std::enable_if_t<detail::HOLDS_BYTES<std::remove_reference_t<Container>> &&
-                                                  detail::IS_WRITABLE<std::remove_reference_t<Container>>,
+                                                  detail::IS_TARGET<Container>,
                                               int> = 0>
   byte_output(Container &&container) noexcept
       : byte_output(reinterpret_cast<std::uint8_t *>(std::data(container)), static_cast<std::size_t>(std::size(container))) {}
 
   /** A member of each element. */
-  template <class Container, class Owner, std::enable_if_t<detail::IS_WRITABLE<std::remove_reference_t<Container>>, int> = 0>
+  template <class Container, class Owner, std::enable_if_t<detail::IS_TARGET<Container>, int> = 0>
   byte_output(Container &&container, std::uint8_t Owner::*member) noexcept : umb_status_output() {
     count = static_cast<std::size_t>(std::size(container));
     if (count > 0) data = std::addressof(std::data(container)->*member);
@@ -831,30 +962,59 @@ struct corner_outputs {
 // ---- progress ----
 
 /**
- * A reference to a callable that takes the fraction done, 0 to 1, and answers whether to go on; one without an answer always goes on. It is
+ * A reference to a callable that takes the fraction done, 0 to 1, and answers `bool`, whether to go on; one without an answer always goes on. It is
  * called on the calling thread. The callable has to outlive the call, so temporaries are not taken. If it throws, the call is cancelled, and
  * goes on throwing once the library has returned.
  */
 class progress_reference {
+  // Other answers than bool, such as C's 0 for going on, would be misread.
+  template <class Callable>
+  static constexpr bool fits() noexcept {
+    if constexpr (std::is_same_v<std::remove_cv_t<Callable>, progress_reference>) {
+      return false;
+    } else if constexpr (std::is_invocable_v<Callable &, double>) {
+      using Answer = std::remove_cv_t<std::remove_reference_t<std::invoke_result_t<Callable &, double>>>;
+      return std::is_void_v<Answer> || std::is_same_v<Answer, bool>;
+    } else {
+      return false;
+    }
+  }
+
  public:
   progress_reference() noexcept = default;
-  template <class Callable, std::enable_if_t<std::is_invocable_v<Callable &, double> && std::is_object_v<Callable>, int> = 0>
-  progress_reference(Callable &callable) noexcept
-      : callable_(const_cast<void *>(static_cast<const void *>(std::addressof(callable)))), call_([](void *object, double fraction) {
-          Callable &target = *static_cast<Callable *>(object);
-          if constexpr (std::is_void_v<std::invoke_result_t<Callable &, double>>) {
-            target(fraction);
-            return true;
-          } else {
-            return static_cast<bool>(target(fraction));
-          }
-        }) {}
+  template <class Callable, std::enable_if_t<fits<Callable>(), int> = 0>
+  progress_reference(Callable &callable) noexcept : call_(&call<Callable>) {
+    if constexpr (std::is_function_v<Callable>) {
+      callable_.function = reinterpret_cast<void (*)()>(&callable);
+    } else {
+      callable_.object = const_cast<void *>(static_cast<const void *>(std::addressof(callable)));
+    }
+  }
   explicit operator bool() const noexcept { return call_ != nullptr; }
   bool operator()(double fraction) const { return call_(callable_, fraction); }
 
  private:
-  void *callable_ = nullptr;
-  bool (*call_)(void *, double) = nullptr;
+  union target {
+    void *object = nullptr;
+    void (*function)();
+  };
+  template <class Callable>
+  static bool call(target which, double fraction) {
+    Callable *callable;
+    if constexpr (std::is_function_v<Callable>) {
+      callable = reinterpret_cast<Callable *>(which.function);
+    } else {
+      callable = static_cast<Callable *>(which.object);
+    }
+    if constexpr (std::is_void_v<std::invoke_result_t<Callable &, double>>) {
+      (*callable)(fraction);
+      return true;
+    } else {
+      return (*callable)(fraction);
+    }
+  }
+  target callable_;
+  bool (*call_)(target, double) = nullptr;
 };
 
 // ---- options: the structs of C with their size set, all else zero ----
@@ -882,6 +1042,8 @@ struct listing : runnable<Struct> {
     this->run.vertices = std::size(vertices) == 0 ? no_indices() : std::data(vertices);
     this->run.vertex_count = static_cast<std::size_t>(std::size(vertices));
   }
+  template <class Container, std::enable_if_t<!IS_VIEW<Container>, int> = 0>
+  void only(const Container &&) = delete;
 };
 
 }  // namespace detail
@@ -915,7 +1077,14 @@ struct polyline_options : detail::runnable<umb_polyline_options> {};
 
 /** See `umb_creases`: edges sharper than `radians`; 0 for pi/6, or for none beside edges or groups that are marked. */
 struct creases : detail::sized<umb_creases> {
-  creases(double radians = 0.0) noexcept { angle = radians; }
+  creases() noexcept = default;
+  template <class Angle, std::enable_if_t<std::is_floating_point_v<Angle>, int> = 0>
+  creases(Angle radians) noexcept {
+    angle = static_cast<double>(radians);
+  }
+  /** Constants of C are integers: a weight is no angle. */
+  template <class Constant, std::enable_if_t<std::is_integral_v<Constant> || std::is_enum_v<Constant>, int> = 0>
+  creases(Constant) = delete;
 
   /** Marks edges: two std::uint32_t each, as pairs (std::array) or in a flat container. */
   template <class Container>
@@ -924,8 +1093,8 @@ struct creases : detail::sized<umb_creases> {
     const auto count = static_cast<std::size_t>(std::size(pairs));
     if constexpr (std::is_same_v<Element, std::uint32_t>) {
       edges = std::data(pairs);
-      // An odd number is refused.
-      edge_count = count % 2 == 0 ? count / 2 : detail::NONE;
+      // An odd number is refused, and what is not in a row.
+      edge_count = count % 2 == 0 && (count == 0 || detail::is_packed(pairs, 2)) ? count / 2 : detail::NONE;
     } else {
       static_assert(std::is_same_v<typename vector_traits<Element>::scalar, std::uint32_t> && vector_traits<Element>::size == 2,
                     "edges are pairs of std::uint32_t");
@@ -933,6 +1102,8 @@ struct creases : detail::sized<umb_creases> {
       edge_count = count;
     }
   }
+  template <class Container, std::enable_if_t<!detail::IS_VIEW<Container>, int> = 0>
+  void mark(const Container &&) = delete;
 
   /** Smoothing groups: a std::uint32_t for each face. */
   template <class Container>
@@ -941,6 +1112,8 @@ struct creases : detail::sized<umb_creases> {
     groups = std::size(face_groups) == 0 ? detail::no_indices() : std::data(face_groups);
     group_count = static_cast<std::size_t>(std::size(face_groups));
   }
+  template <class Container, std::enable_if_t<!detail::IS_VIEW<Container>, int> = 0>
+  void group(const Container &&) = delete;
 };
 
 /** See `umb_moved`: a container of std::uint32_t. */
@@ -1665,27 +1838,33 @@ segmentation segment(const faces &loops, const points &positions, const Options 
 // ---- for adapters to hosts: curvatures by name ----
 
 /** Curvatures that an adapter writes to properties of a host's mesh; any of them together, by `|`. */
-using quantities = std::uint32_t;
+enum class quantities : std::uint32_t {};
+constexpr quantities operator|(quantities a, quantities b) noexcept {
+  return static_cast<quantities>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr quantities operator&(quantities a, quantities b) noexcept {
+  return static_cast<quantities>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
+}
 
 /** One of them each, under the name of its property. */
 namespace quantity {
-constexpr quantities k1 = 1U << 0;                   // "v:k1", 1/length
-constexpr quantities k2 = 1U << 1;                   // "v:k2", 1/length
-constexpr quantities direction1 = 1U << 2;           // "v:dir1", unit vectors
-constexpr quantities direction2 = 1U << 3;           // "v:dir2", unit vectors
-constexpr quantities mean = 1U << 4;                 // "v:mean", 1/length
-constexpr quantities gaussian = 1U << 5;             // "v:gauss", 1/length^2
-constexpr quantities mean_normal = 1U << 6;          // "v:mean_normal", 1/length
-constexpr quantities area = 1U << 7;                 // "v:area", length^2
-constexpr quantities integrated_mean = 1U << 8;      // "v:integrated_mean", length
-constexpr quantities integrated_gaussian = 1U << 9;  // "v:integrated_gauss"
-constexpr quantities shape_index = 1U << 10;         // "v:shape_index"
-constexpr quantities curvedness = 1U << 11;          // "v:curvedness", 1/length
-constexpr quantities residual = 1U << 12;            // "v:residual"
-constexpr quantities condition = 1U << 13;           // "v:condition"
-constexpr quantities degrees_of_freedom = 1U << 14;  // "v:degrees_of_freedom"
-constexpr quantities normal = 1U << 15;              // "v:fit_normal", unit vectors
-constexpr quantities status = 1U << 16;              // "v:curvature_status", UMB_VERTEX_ bits
+inline constexpr quantities k1{1U << 0};                   // "v:k1", 1/length
+inline constexpr quantities k2{1U << 1};                   // "v:k2", 1/length
+inline constexpr quantities direction1{1U << 2};           // "v:dir1", unit vectors
+inline constexpr quantities direction2{1U << 3};           // "v:dir2", unit vectors
+inline constexpr quantities mean{1U << 4};                 // "v:mean", 1/length
+inline constexpr quantities gaussian{1U << 5};             // "v:gauss", 1/length^2
+inline constexpr quantities mean_normal{1U << 6};          // "v:mean_normal", 1/length
+inline constexpr quantities area{1U << 7};                 // "v:area", length^2
+inline constexpr quantities integrated_mean{1U << 8};      // "v:integrated_mean", length
+inline constexpr quantities integrated_gaussian{1U << 9};  // "v:integrated_gauss"
+inline constexpr quantities shape_index{1U << 10};         // "v:shape_index"
+inline constexpr quantities curvedness{1U << 11};          // "v:curvedness", 1/length
+inline constexpr quantities residual{1U << 12};            // "v:residual"
+inline constexpr quantities condition{1U << 13};           // "v:condition"
+inline constexpr quantities degrees_of_freedom{1U << 14};  // "v:degrees_of_freedom"
+inline constexpr quantities normal{1U << 15};              // "v:fit_normal", unit vectors
+inline constexpr quantities status{1U << 16};              // "v:curvature_status", UMB_VERTEX_ bits
 /** Those of the first six that a method has. */
 constexpr quantities of_method(umb_curvature_method method) noexcept {
   if (method == UMB_CURVATURE_ANGLE_DEFECT) return gaussian;
@@ -1693,10 +1872,12 @@ constexpr quantities of_method(umb_curvature_method method) noexcept {
   return k1 | k2 | direction1 | direction2 | mean | gaussian;
 }
 /** Stands for `of_method` of the method that is asked for. */
-constexpr quantities default_ones = 0;
+inline constexpr quantities default_ones{};
 }  // namespace quantity
 
 namespace detail {
+
+constexpr bool has(quantities some, quantities one) noexcept { return (some & one) != quantities{}; }
 
 template <class Output>
 struct named {
@@ -1705,7 +1886,7 @@ struct named {
   Output curvature_outputs::*output;
 };
 
-constexpr named<numbers> NAMED_NUMBERS[] = {{quantity::k1, "v:k1", &curvature_outputs::k1},
+inline constexpr named<numbers> NAMED_NUMBERS[] = {{quantity::k1, "v:k1", &curvature_outputs::k1},
                                             {quantity::k2, "v:k2", &curvature_outputs::k2},
                                             {quantity::mean, "v:mean", &curvature_outputs::mean},
                                             {quantity::gaussian, "v:gauss", &curvature_outputs::gaussian},
@@ -1717,11 +1898,11 @@ constexpr named<numbers> NAMED_NUMBERS[] = {{quantity::k1, "v:k1", &curvature_ou
                                             {quantity::residual, "v:residual", &curvature_outputs::residual},
                                             {quantity::condition, "v:condition", &curvature_outputs::condition},
                                             {quantity::degrees_of_freedom, "v:degrees_of_freedom", &curvature_outputs::degrees_of_freedom}};
-constexpr named<vectors> NAMED_VECTORS[] = {{quantity::direction1, "v:dir1", &curvature_outputs::direction1},
+inline constexpr named<vectors> NAMED_VECTORS[] = {{quantity::direction1, "v:dir1", &curvature_outputs::direction1},
                                             {quantity::direction2, "v:dir2", &curvature_outputs::direction2},
                                             {quantity::mean_normal, "v:mean_normal", &curvature_outputs::mean_normal},
                                             {quantity::normal, "v:fit_normal", &curvature_outputs::normal}};
-constexpr const char *STATUS_NAME = "v:curvature_status";
+inline constexpr const char *STATUS_NAME = "v:curvature_status";
 
 }  // namespace detail
 
@@ -1731,7 +1912,7 @@ constexpr const char *STATUS_NAME = "v:curvature_status";
  */
 class host_topology : public topology {
  public:
-  host_topology() noexcept = default;
+  explicit host_topology() noexcept = default;
   host_topology(topology &&built, bool has_gaps, std::vector<std::uint32_t> &&existing) noexcept
       : topology(std::move(built)), existing_(std::move(existing)), has_gaps_(has_gaps) {}
 
@@ -1750,6 +1931,7 @@ class host_topology : public topology {
   bool has_gaps_ = false;
 };
 
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_HPP

@@ -16,8 +16,10 @@
  * written into maps of Surface_mesh where they belong. Everything else is converted: points by CGAL::to_double (EPECK: the exact
  * value is rounded), results by way of an array and `put`. Labels of segments and halfedge normals are copied.
  *
- * Removed elements of Surface_mesh, before `collect_garbage()`: removed faces count for nothing, and results of removed elements stay what they were.
- * Adaptive jets without a model learn from all positions, so those of removed vertices have to be finite.
+ * Removed elements of Surface_mesh, before `collect_garbage()`: removed faces count for nothing, and results of removed elements stay what they were,
+ * unless the caller's own list names one: zeros are written there. Positions of removed vertices have to be finite for halfedge normals, segments
+ * and adaptive jets without a model, and count in the bounding box that default tolerances go by; where points are converted, those of removed
+ * vertices are put where another vertex is.
  *
  * Vertices are numbered (in lists, statuses, boundary edges) as in Surface_mesh, `idx()`, and in other graphs in the order of `vertices(graph)`;
  * faces in the order of `faces(graph)`. Errors are thrown, as `umbilic::error` (see umbilic.hpp).
@@ -38,6 +40,7 @@
 #include <CGAL/number_utils.h>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 
 namespace detail {
 
@@ -85,11 +88,11 @@ constexpr bool IS_MAP<Map, std::void_t<typename Map::key_type, typename Map::val
 template <class Map>
 using if_map = std::enable_if_t<IS_MAP<Map>, int>;
 
-/** Whether a map is a property of a Surface_mesh, whose elements lie in one array by `idx()`. */
+/** Whether a map is a property of a Surface_mesh's vertices, whose elements lie in one array by `idx()`. */
 template <class Graph, class Map>
 constexpr bool is_array() {
   if constexpr (IS_SURFACE_MESH<Graph> && IS_MAP<Map>) {
-    return std::is_same_v<Map, typename Graph::template Property_map<typename Map::key_type, typename Map::value_type>>;
+    return std::is_same_v<Map, typename Graph::template Property_map<typename Graph::Vertex_index, typename Map::value_type>>;
   } else {
     return false;
   }
@@ -125,9 +128,15 @@ const typename Map::value_type *data_of(const Map &map, std::size_t count) {
   return count == 0 ? nullptr : map.data();
 }
 
+/** Whether a map's keys are vertices: the array of any other property is too short, or too long. */
+template <class Graph, class Map>
+constexpr bool TAKES_VERTICES = std::is_convertible_v<vertex_of<Graph>, typename boost::property_traits<Map>::key_type>;
+
 /** Positions as calls take them, with what had to be copied. */
 template <class Graph, class PointMap>
 class positions {
+  static_assert(TAKES_VERTICES<Graph, PointMap>, "points belong to vertices");
+
  public:
   positions(const Graph &graph, const PointMap &map) : map_(map) {
     using Point = std::decay_t<typename boost::property_traits<PointMap>::value_type>;
@@ -135,10 +144,18 @@ class positions {
       view_ = points(data_of(map_, slots(graph)), slots(graph));
     } else {
       copied_.resize(slots(graph));
+      // Removed vertices lie where another does: anywhere else they would widen the bounding box that default tolerances go by.
+      std::vector<bool> is_there(copied_.size());
+      const std::array<double, 3> *first = nullptr;
       for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) {
         const auto &point = get(map, vertex);
         copied_[slot] = {CGAL::to_double(point.x()), CGAL::to_double(point.y()), CGAL::to_double(point.z())};
+        is_there[slot] = true;
+        if (first == nullptr) first = &copied_[slot];
       });
+      for (std::size_t slot = 0; slot < copied_.size() && first != nullptr; slot++) {
+        if (!is_there[slot]) copied_[slot] = *first;
+      }
       view_ = points(copied_);
     }
   }
@@ -165,6 +182,8 @@ Vector vector_from(const std::array<double, 3> &values) {
 /** Results on their way to a map: its own array, or one that is put into it afterwards. */
 template <class Graph, class Map>
 class result {
+  static_assert(TAKES_VERTICES<Graph, Map>, "results belong to vertices");
+
  public:
   using value = typename Map::value_type;
   static constexpr bool IS_BYTE = std::is_same_v<value, std::uint8_t>;
@@ -329,10 +348,11 @@ void halfedge_normals(const Graph &graph, Map map, const creases &where, const n
   corner_outputs into;
   into.normal = normals;
   corner_normals(cut, positions, into, weight_or_options);
+  const span<const std::uint32_t> corners = cut.corners();
   std::size_t corner = 0;
   for (const auto face : faces(graph)) {
     for (const auto side : CGAL::halfedges_around_face(halfedge(face, graph), graph)) {
-      const std::array<double, 3> &normal = normals[cut.corners()[corner++]];
+      const std::array<double, 3> &normal = normals[corners[corner++]];
       put(map, side, detail::vector_from<typename Map::value_type>(normal));
     }
   }
@@ -388,7 +408,7 @@ void connect(result<Graph, Map> &from, quantities bit, curvature_outputs &into) 
   }
   if (!known) {
     status wrong;
-    wrong.fail(UMB_ERROR_NOT_APPLICABLE, "a map is not of the type of the quantity that it shall receive", bit);
+    wrong.fail(UMB_ERROR_NOT_APPLICABLE, "a map is not of the type of the quantity that it shall receive", static_cast<std::uint64_t>(bit));
     wrong.raise();
   }
 }
@@ -401,25 +421,29 @@ void connect(result<Graph, Map> &from, quantities bit, curvature_outputs &into) 
  * @param options the method; by default adaptive jets
  * @param point_map from vertices to points
  */
-template <class Graph, class PointMap, class... Maps, detail::if_map<PointMap> = 0>
+template <class Graph, class PointMap, class First, class... Maps, detail::if_map<PointMap> = 0>
 void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const PointMap &point_map,
-                const destination<Maps> &...wanted) {
+                const destination<First> &first, const destination<Maps> &...wanted) {
   const curvature_options existing = rings.restrict_to_existing(options);
   const detail::positions<Graph, PointMap> where(graph, point_map);
-  std::tuple<detail::result<Graph, Maps>...> results(detail::result<Graph, Maps>(graph, wanted.map)...);
+  std::tuple<detail::result<Graph, First>, detail::result<Graph, Maps>...> results(detail::result<Graph, First>(graph, first.map),
+                                                                                  detail::result<Graph, Maps>(graph, wanted.map)...);
   std::apply(
-      [&](auto &...result) {
+      [&](auto &first_result, auto &...result) {
         curvature_outputs into;
+        detail::connect(first_result, first.bit, into);
         (detail::connect(result, wanted.bit, into), ...);
         umbilic::curvatures(rings, where, into, existing);
+        first_result.finish(graph, existing.run);
         (result.finish(graph, existing.run), ...);
       },
       results);
 }
 /** Likewise, with the graph's own points. */
-template <class Graph, class... Maps>
-void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const destination<Maps> &...wanted) {
-  curvatures(graph, rings, options, get(CGAL::vertex_point, graph), wanted...);
+template <class Graph, class First, class... Maps>
+void curvatures(const Graph &graph, const host_topology &rings, const curvature_options &options, const destination<First> &first,
+                const destination<Maps> &...wanted) {
+  curvatures(graph, rings, options, get(CGAL::vertex_point, graph), first, wanted...);
 }
 /** Likewise, with a topology for this call alone. */
 template <class Graph, class First, class... Maps>
@@ -463,7 +487,7 @@ curvature_properties<Point> curvatures(CGAL::Surface_mesh<Point> &mesh, const ho
   vectors_to.reserve(std::size(umbilic::detail::NAMED_VECTORS));
   bytes_to.reserve(1);
   for (const auto &named : umbilic::detail::NAMED_NUMBERS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     const Numbers map = mesh.template add_property_map<Vertex, detail::scalar_at<Point>>(named.name).first;
     numbers_to.emplace_back(mesh, map);
     detail::connect(numbers_to.back(), named.bit, into);
@@ -473,14 +497,14 @@ curvature_properties<Point> curvatures(CGAL::Surface_mesh<Point> &mesh, const ho
     if (named.bit == quantity::gaussian) found.gauss = map;
   }
   for (const auto &named : umbilic::detail::NAMED_VECTORS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     const Vectors map = mesh.template add_property_map<Vertex, detail::vector_at<Point>>(named.name).first;
     vectors_to.emplace_back(mesh, map);
     detail::connect(vectors_to.back(), named.bit, into);
     if (named.bit == quantity::direction1) found.dir1 = map;
     if (named.bit == quantity::direction2) found.dir2 = map;
   }
-  if (wanted & quantity::status) {
+  if (umbilic::detail::has(wanted, quantity::status)) {
     bytes_to.emplace_back(mesh, mesh.template add_property_map<Vertex, std::uint8_t>(umbilic::detail::STATUS_NAME).first);
     detail::connect(bytes_to.back(), quantity::status, into);
   }
@@ -513,8 +537,9 @@ segmentation segment(const Graph &graph, Map map, const Options &options, const 
   using CGAL::faces;
   const detail::positions<Graph, PointMap> positions(graph, point_map);
   segmentation found = umbilic::segment(polygons_of(graph), positions, options);
+  const span<const std::uint32_t> labels = found.labels();
   std::size_t number = 0;
-  for (const auto face : faces(graph)) put(map, face, static_cast<typename Map::value_type>(found.labels()[number++]));
+  for (const auto face : faces(graph)) put(map, face, static_cast<typename Map::value_type>(labels[number++]));
   return found;
 }
 /** Likewise, with the graph's own points. */
@@ -532,6 +557,7 @@ segmentation segment(CGAL::Surface_mesh<Point> &mesh, const Options &options) {
 }
 
 }  // namespace cgal
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_CGAL_HPP

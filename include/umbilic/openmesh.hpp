@@ -15,8 +15,9 @@
  * by default; else they are converted by way of an array of doubles. Halfedge normals and labels of segments are copied from where they
  * were computed.
  *
- * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were. Adaptive
- * jets without a model learn from all positions, so those of deleted vertices have to be finite.
+ * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were,
+ * unless the caller's own list names one: zeros are written there. Positions of deleted vertices have to be finite for halfedge normals, segments
+ * and adaptive jets without a model, and count in the bounding box that default tolerances go by.
  *
  * Errors are thrown, as `umbilic::error` (see umbilic.hpp). A property that has one of the names but another type is left alone, and another
  * added beside it.
@@ -34,6 +35,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 namespace openmesh {
 
 namespace detail {
@@ -182,7 +184,8 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
       marked.push_back(static_cast<std::uint32_t>(mesh.from_vertex_handle(halfedge).idx()));
       marked.push_back(static_cast<std::uint32_t>(mesh.to_vertex_handle(halfedge).idx()));
     }
-    if (!marked.empty()) {
+    // Edges that are no pairs are left for the call to refuse.
+    if (!marked.empty() && where.edge_count != umbilic::detail::NONE) {
       if (where.edges != nullptr) marked.insert(marked.end(), where.edges, where.edges + 2 * where.edge_count);
       all.mark(marked);
     }
@@ -200,10 +203,11 @@ void halfedge_normals(Mesh &mesh, const creases &where = creases(), const normal
   into.normal = normals;
   corner_normals(cut, positions, into, weight_or_options);
   if (!mesh.has_halfedge_normals()) mesh.request_halfedge_normals();
+  const span<const std::uint32_t> corners = cut.corners();
   std::size_t corner = 0;
   for (const auto face : mesh.faces()) {
     for (const auto halfedge : mesh.fh_range(face)) {
-      const std::array<Scalar, 3> &normal = normals[cut.corners()[corner++]];
+      const std::array<Scalar, 3> &normal = normals[corners[corner++]];
       typename Mesh::Normal copied;
       for (std::size_t k = 0; k < 3; k++) copied[k] = static_cast<std::decay_t<decltype(copied[0])>>(normal[k]);
       mesh.set_normal(halfedge, copied);
@@ -238,7 +242,7 @@ curvature_properties<Mesh> curvatures(Mesh &mesh, const host_topology &rings, co
   curvature_properties<Mesh> found;
   curvature_outputs into;
   for (const auto &named : umbilic::detail::NAMED_NUMBERS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     Number property;
     detail::have(mesh, property, named.name);
     into.*named.output = detail::array_of(mesh, property);
@@ -248,14 +252,14 @@ curvature_properties<Mesh> curvatures(Mesh &mesh, const host_topology &rings, co
     if (named.bit == quantity::gaussian) found.gauss = property;
   }
   for (const auto &named : umbilic::detail::NAMED_VECTORS) {
-    if (!(wanted & named.bit)) continue;
+    if (!umbilic::detail::has(wanted, named.bit)) continue;
     Vector property;
     detail::have(mesh, property, named.name);
     into.*named.output = detail::array_of(mesh, property);
     if (named.bit == quantity::direction1) found.dir1 = property;
     if (named.bit == quantity::direction2) found.dir2 = property;
   }
-  if (wanted & quantity::status) {
+  if (umbilic::detail::has(wanted, quantity::status)) {
     OpenMesh::VPropHandleT<std::uint8_t> property;
     detail::have(mesh, property, umbilic::detail::STATUS_NAME);
     into.status = detail::array_of(mesh, property);
@@ -294,12 +298,14 @@ segmentation segment(Mesh &mesh, const Options &options) {
   segmentation found = umbilic::segment(polygons_of(mesh), positions, options);
   OpenMesh::FPropHandleT<std::uint32_t> property;
   detail::have(mesh, property, "f:segment");
+  const span<const std::uint32_t> labels = found.labels();
   std::size_t number = 0;
-  for (const auto face : mesh.faces()) mesh.property(property, face) = found.labels()[number++];
+  for (const auto face : mesh.faces()) mesh.property(property, face) = labels[number++];
   return found;
 }
 
 }  // namespace openmesh
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_OPENMESH_HPP

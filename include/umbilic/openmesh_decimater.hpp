@@ -20,6 +20,7 @@
 #include <cmath>
 
 namespace umbilic {
+inline namespace UMBILIC_VARIANT {
 namespace openmesh {
 
 /**
@@ -76,7 +77,7 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
   }
   /** Undoes it. */
   void unset_largest_turn() noexcept {
-    largest_turn_ = 0.0;
+    largest_turn_ = UNBOUNDED;
     Base::set_binary(false);
   }
 
@@ -97,9 +98,10 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
   float collapse_priority(const CollapseInfo &info) override {
     Mesh &mesh = Base::mesh();
     const double curvedness = std::max<double>(mesh.property(curvedness_, info.v0), mesh.property(curvedness_, info.v1));
-    if (Base::is_binary()) {
+    // Not by `is_binary()`: ModQuadricT's `set_max_err` sets that as well.
+    if (largest_turn_ != UNBOUNDED) {
       const double turn = curvedness * static_cast<double>((info.p1 - info.p0).norm());
-      return static_cast<float>(turn <= largest_turn_ ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE);
+      return static_cast<float>(turn <= largest_turn_ * this->error_tolerance_factor_ ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE);
     }
     const float error = Base::collapse_priority(info);
     if (error < 0.0F) return error;
@@ -107,15 +109,18 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
     return static_cast<float>((static_cast<double>(error) + turned) * std::pow(std::max(curvedness / least_, 1.0), power_));
   }
 
-  /** Of the bound that makes it binary: a factor of 0 to 1. */
+  /** Of the bound that makes it binary: a factor of 0 to 1. Without `set_largest_turn` that of ModQuadricT. */
   void set_error_tolerance_factor(double factor) override {
-    if (!Base::is_binary() || !(factor >= 0.0 && factor <= 1.0)) return;
-    largest_turn_ *= factor / this->error_tolerance_factor_;
-    this->error_tolerance_factor_ = factor;
+    if (largest_turn_ == UNBOUNDED) {
+      Base::set_error_tolerance_factor(factor);
+    } else if (factor >= 0.0 && factor <= 1.0) {
+      this->error_tolerance_factor_ = factor;
+    }
   }
 
  private:
   using Vector = OpenMesh::Vec3d;
+  static constexpr double UNBOUNDED = std::numeric_limits<double>::infinity();
 
   template <class From>
   static Vector wide(const From &from) {
@@ -142,10 +147,11 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
   OpenMesh::VPropHandleT<detail::scalar<Mesh>> curvedness_;
   OpenMesh::VPropHandleT<detail::vector<Mesh>> normal_;
   curvature_options options_;
-  double power_ = 0.5, normal_weight_ = 0.03, largest_turn_ = 0.0, least_ = 1.0;
+  double power_ = 0.5, normal_weight_ = 0.03, largest_turn_ = UNBOUNDED, least_ = 1.0;
 };
 
 }  // namespace openmesh
+}  // namespace UMBILIC_VARIANT
 }  // namespace umbilic
 
 #endif  // UMBILIC_OPENMESH_DECIMATER_HPP

@@ -32,6 +32,19 @@ static_assert(umbilic::vector_traits<Simple::Point_3>::size == 3 && umbilic::vec
 static_assert(umbilic::vector_traits<Epeck::Point_3>::size == 0 && umbilic::vector_traits<Single::Point_3>::size == 3);
 static_assert(std::is_constructible_v<umbilic::points, const std::vector<Epick::Point_3> &>);
 static_assert(!std::is_constructible_v<umbilic::points, const std::vector<Epeck::Point_3> &>);
+// Maps of other elements are not vertices'.
+using Faces = Mesh<Simple>::Property_map<Mesh<Simple>::Face_index, double>;
+using Vertices = Mesh<Simple>::Property_map<Mesh<Simple>::Vertex_index, double>;
+static_assert(!uc::detail::is_array<Mesh<Simple>, Faces>() && !uc::detail::TAKES_VERTICES<Mesh<Simple>, Faces>);
+static_assert(uc::detail::is_array<Mesh<Simple>, Vertices>() && uc::detail::TAKES_VERTICES<Mesh<Simple>, Vertices>);
+
+// Without a map there is nothing to compute.
+template <class Graph, class = void>
+constexpr bool COMPUTES_NOTHING = false;
+template <class Graph>
+constexpr bool COMPUTES_NOTHING<Graph, std::void_t<decltype(uc::curvatures(std::declval<const Graph &>(), std::declval<const umbilic::host_topology &>(),
+                                                                           umbilic::curvature_options()))>> = true;
+static_assert(!COMPUTES_NOTHING<CGAL::Polyhedron_3<Simple>>);
 
 // A sphere of radius 2, of quads or triangles.
 template <class Graph>
@@ -168,6 +181,18 @@ void removed() {
   for (const auto face : mesh.faces()) {
     CHECK(label[face] < segments.count());
     CHECK(std::abs(product(corners[mesh.halfedge(face)], corners[mesh.halfedge(face)]) - 1) < 1e-12);
+  }
+  // Removed vertices do not change the bounding box on the converting path.
+  if constexpr (std::is_same_v<Kernel, Epeck>) {
+    auto away = mesh.template add_property_map<Vertex, typename Kernel::Point_3>("v:away").first;
+    const typename Kernel::Vector_3 shift(100, 100, 100);
+    for (const auto vertex : mesh.vertices()) away[vertex] = mesh.point(vertex) + shift;
+    const uc::detail::positions<Mesh<Kernel>, decltype(away)> moved_away(mesh, away);
+    const umbilic::points &view = moved_away;
+    const auto *at = static_cast<const std::array<double, 3> *>(view.data);
+    CHECK(view.count == slots);
+    for (unsigned v = 0; v < slots; v++) CHECK(at[v][0] > 90);
+    mesh.remove_property_map(away);
   }
   // A list stays the caller's.
   umbilic::normal_options options;

@@ -263,6 +263,16 @@ void corners() {
   check_top();
   um::halfedge_normals(mesh, 3.2, UMB_WEIGHT_ANGLE, false);
   for (const auto halfedge : mesh.halfedges()) CHECK(mesh.normal(halfedge) == mesh.normal(mesh.to_vertex_handle(halfedge)));
+  // Half an edge is refused, beside features as well.
+  umbilic::creases odd(3.2);
+  const std::vector<std::uint32_t> half = {0, 1, 2};
+  odd.mark(half);
+  try {
+    um::halfedge_normals(mesh, odd, UMB_WEIGHT_ANGLE);
+    CHECK(false);
+  } catch (const umbilic::error &error) {
+    CHECK(error.status() == UMB_ERROR_SIZE);
+  }
   std::vector<std::uint32_t> groups;
   for (const auto face : mesh.faces()) groups.push_back(mesh.normal(face)[2] > 0.5 ? 2 : 1);
   umbilic::creases grouped(3.2);
@@ -286,7 +296,14 @@ std::size_t decimated(double power, double turn, std::size_t faces) {
   if (turn > 0) {
     CHECK(decimater.add(quadric));
     module.set_largest_turn(turn);
+    // Back and forth: the bound comes back from 0. Other bounds do not count.
+    module.set_error_tolerance_factor(0.0);
     module.set_error_tolerance_factor(1.0);
+    module.set_max_err(1e30);
+  } else if (turn < 0) {
+    // Binary by the bound of quadrics alone, as ModQuadricT is.
+    CHECK(decimater.add(quadric));
+    module.set_max_err(1e30);
   }
   CHECK(decimater.initialize());
   decimater.decimate_to_faces(0, faces);
@@ -329,6 +346,7 @@ int main() {
   CHECK(decimated<TriFloat>(1, 0, 500) <= 500 && decimated<TriDouble>(0, 0, 500) <= 500);
   // Along no edge does a sphere turn so little; a fair turn keeps more than a large one.
   CHECK(decimated<TriDouble>(1, 1e-4, 10) == all);
+  CHECK(decimated<TriDouble>(0, -1, 500) <= 500);
   CHECK(decimated<TriDouble>(1, 0.2, 10) > 2 * decimated<TriDouble>(1, 0.5, 10));
   errors();
   std::puts("openmesh: in the mesh's own memory, with and without gaps");

@@ -26,6 +26,10 @@ for compiler in "${CXX:-c++}" clang++; do
     test_program eigen "$compiler" -std=$standard -isystem /usr/include/eigen3
   done
 done
+# Parts with and without exceptions in one program, the latter first, whose functions the linker would take for both.
+# shellcheck disable=SC2086
+"${CXX:-c++}" -std=c++17 $strict -fno-inline -fno-exceptions -c $here/mixed.cpp -o $built/mixed.o
+test_program mixed "${CXX:-c++}" -std=c++17 -fno-inline $built/mixed.o
 # The README's.
 sed -n '/^```cpp$/,/^```$/p' README.md | grep -v '^```' > $built/readme.cpp
 # shellcheck disable=SC2086

@@ -3,6 +3,8 @@
 
 #include "check.hpp"
 
+static_assert(std::is_same_v<umbilic::points, umbilic::without_exceptions::points>, "other names than with exceptions");
+
 int main() {
   const std::vector<std::array<double, 3>> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   std::vector<std::uint32_t> triangle = {0, 1, 2};

@@ -55,6 +55,7 @@ struct Vertex {
 template <bool Rows>
 struct Matrix {
   static constexpr bool IsRowMajor = Rows, IsVectorAtCompileTime = false;
+  static constexpr int ColsAtCompileTime = 3;
   const double *data() const { return nullptr; }
   long size() const { return 0; }
 };
@@ -447,7 +448,8 @@ void lists() {
   options.only(some);
   const auto few = umbilic::vertex_normals(mesh, sphere.positions, options);
   CHECK(few[3] == all[3] && few[5] == all[5] && few[0] == Double3{});
-  options.only(List<std::uint32_t>());
+  const List<std::uint32_t> nothing;
+  options.only(nothing);
   CHECK(umbilic::vertex_normals(mesh, sphere.positions, options) == List<Double3>(all.size()));
 
   // A frame later.
@@ -606,6 +608,14 @@ void parts() {
   flat_pairs.pop_back();
   none.mark(flat_pairs);
   CHECK(thrown([&] { umbilic::cut_mesh(QUADS, CUBE, none); }, "") == UMB_ERROR_SIZE);
+  umbilic::polygons loops(List<List<int>>{{0, 1, 2, 3}, {0, 2, 1}});
+  umbilic::polygons taken(std::move(loops));
+  CHECK(taken.size() == 2 && taken.corner_count() == 7 && loops.size() == 0 && umbilic::faces(loops).size() == 0);
+  loops.push_back(List<int>{0, 1, 2});
+  CHECK(loops.size() == 1 && umbilic::faces(loops).size() == 1);
+  loops = std::move(taken);
+  CHECK(loops.size() == 2 && taken.size() == 0 && taken.corner_count() == 0);
+
   umbilic::creases grouped(3.2);
   const List<std::uint32_t> groups = {1, 2, 1, 1, 1, 1};
   grouped.group(groups);
@@ -676,6 +686,46 @@ void threads() {
   for (std::thread &worker : workers) worker.join();
 }
 
+// What does not compile, since it would be misread or outlived.
+template <class Options, class Container, class = void>
+constexpr bool TAKES_ONLY = false;
+template <class Options, class Container>
+constexpr bool TAKES_ONLY<Options, Container, std::void_t<decltype(std::declval<Options &>().only(std::declval<Container>()))>> = true;
+template <class Container, class = void>
+constexpr bool TAKES_MARKS = false;
+template <class Container>
+constexpr bool TAKES_MARKS<Container, std::void_t<decltype(std::declval<umbilic::creases &>().mark(std::declval<Container>()),
+                                                           std::declval<umbilic::creases &>().group(std::declval<Container>()))>> = true;
+using Indices = std::vector<std::uint32_t>;
+static_assert(TAKES_ONLY<umbilic::normal_options, Indices &> && TAKES_ONLY<umbilic::normal_options, const Indices &>);
+static_assert(!TAKES_ONLY<umbilic::normal_options, Indices> && !TAKES_ONLY<umbilic::normal_options, const Indices>);
+static_assert(TAKES_ONLY<umbilic::normal_options, umbilic::span<const std::uint32_t>>);
+static_assert(TAKES_MARKS<Indices &> && !TAKES_MARKS<Indices>);
+static_assert(std::is_constructible_v<umbilic::numbers, std::vector<double> &> && !std::is_constructible_v<umbilic::numbers, std::vector<double>>);
+static_assert(std::is_constructible_v<umbilic::numbers, umbilic::span<double>> &&
+              !std::is_constructible_v<umbilic::byte_output, std::vector<std::uint8_t>>);
+static_assert(std::is_convertible_v<double, umbilic::creases> && std::is_convertible_v<float, umbilic::creases> &&
+              !std::is_constructible_v<umbilic::creases, int> && !std::is_constructible_v<umbilic::creases, umb_weight>);
+static_assert(!std::is_convertible_v<umb_curvature_method, umbilic::quantities> && !std::is_convertible_v<umbilic::quantities, std::uint32_t>);
+using Answers = bool(double);
+static_assert(std::is_constructible_v<umbilic::progress_reference, Answers &>);
+static_assert(!std::is_constructible_v<umbilic::progress_reference, int (&)(double)>);
+static_assert(std::is_same_v<umbilic::points, umbilic::with_exceptions::points>, "other names than without exceptions");
+
+int asked = 0;
+bool ask(double) { return ++asked < 0; }
+
+void references() {
+  umbilic::progress_reference first = ask;
+  // A copy, not a reference to it.
+  umbilic::progress_reference second(first);
+  first = umbilic::progress_reference();
+  CHECK(!first && second && !second(0.5) && asked == 1);
+  const auto count = [](double) { asked++; };
+  second = count;
+  CHECK(second(0.5) && asked == 2);
+}
+
 }  // namespace
 
 int main() {
@@ -690,6 +740,7 @@ int main() {
   parts();
   memory();
   threads();
+  references();
   std::printf("wrapper: as the C interface, C++%ld\n", (__cplusplus / 100L) % 100L);
   return 0;
 }
