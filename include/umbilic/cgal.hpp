@@ -227,6 +227,25 @@ class result {
   std::vector<element> copied_;
 };
 
+/** The numbers of a graph's vertices, as lists and statuses have them. */
+template <class Graph>
+class numbers_of {
+ public:
+  explicit numbers_of(const Graph &graph) : numbers_(get(CGAL::dynamic_vertex_property_t<std::uint64_t>(), graph)) {
+    for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) { put(numbers_, vertex, static_cast<std::uint64_t>(slot)); });
+  }
+  std::uint64_t operator()(const vertex_of<Graph> &vertex) const { return get(numbers_, vertex); }
+
+ private:
+  typename boost::property_map<Graph, CGAL::dynamic_vertex_property_t<std::uint64_t>>::const_type numbers_;
+};
+template <class Point>
+class numbers_of<CGAL::Surface_mesh<Point>> {
+ public:
+  explicit numbers_of(const CGAL::Surface_mesh<Point> &) {}
+  std::uint64_t operator()(const vertex_of<CGAL::Surface_mesh<Point>> &vertex) const { return vertex.idx(); }
+};
+
 /** The kernel's vector, and a scalar that the C interface knows. */
 template <class Point>
 using vector_at = typename CGAL::Kernel_traits<Point>::Kernel::Vector_3;
@@ -245,22 +264,30 @@ template <class Graph>
 polygons polygons_of(const Graph &graph) {
   using CGAL::faces;  // beside umbilic::faces
   polygons loops;
-  const auto add = [&](const auto &index_of) {
-    for (const auto face : faces(graph)) {
-      for (const auto side : CGAL::halfedges_around_face(halfedge(face, graph), graph)) {
-        loops.add_corner(index_of(target(side, graph)));
-      }
-      loops.end_face();
+  const detail::numbers_of<Graph> number(graph);
+  for (const auto face : faces(graph)) {
+    for (const auto side : CGAL::halfedges_around_face(halfedge(face, graph), graph)) {
+      loops.add_corner(number(target(side, graph)));
     }
-  };
-  if constexpr (detail::IS_SURFACE_MESH<Graph>) {
-    add([](const auto &vertex) { return static_cast<std::uint64_t>(vertex.idx()); });
-  } else {
-    const auto numbers = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), graph);
-    detail::for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) { put(numbers, vertex, static_cast<std::uint32_t>(slot)); });
-    add([&](const auto &vertex) { return static_cast<std::uint64_t>(get(numbers, vertex)); });
+    loops.end_face();
   }
   return loops;
+}
+
+/**
+ * The edges that a map marks, such as `CGAL::Polygon_mesh_processing::detect_sharp_edges` fills, two vertices each, for `creases::mark`.
+ *
+ * @param is_marked from edges to `bool`
+ */
+template <class Graph, class EdgeMap>
+std::vector<std::array<std::uint32_t, 2>> marked_edges(const Graph &graph, const EdgeMap &is_marked) {
+  std::vector<std::array<std::uint32_t, 2>> marked;
+  const detail::numbers_of<Graph> number(graph);
+  for (const auto edge : edges(graph)) {
+    if (!get(is_marked, edge)) continue;
+    marked.push_back({static_cast<std::uint32_t>(number(source(edge, graph))), static_cast<std::uint32_t>(number(target(edge, graph)))});
+  }
+  return marked;
 }
 
 /** The one-rings of a graph, for the calls below and for those of umbilic.hpp. Good until faces change. */

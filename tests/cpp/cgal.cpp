@@ -7,6 +7,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -272,6 +273,54 @@ void corners_of_cube() {
     for (const auto halfedge : mesh.halfedges_around_face(mesh.halfedge(face))) CHECK(plain(normals[halfedge]) == flat[face]);
   }
   CHECK(uc::segment(mesh, umbilic::feature_options()).count() == 6);
+
+  // CGAL finds the same edges; those around one face alone part it from the rest.
+  auto sharp = mesh.add_property_map<Mesh<Epick>::Edge_index, bool>("e:is_feature", false).first;
+  CGAL::Polygon_mesh_processing::detect_sharp_edges(mesh, 60, sharp);
+  auto marked = uc::marked_edges(mesh, sharp);
+  CHECK(marked.size() == 12);
+  umbilic::creases marks;
+  marks.mark(marked);
+  auto by_marks = mesh.add_property_map<Mesh<Epick>::Halfedge_index, Epick::Vector_3>("h:by_marks").first;
+  uc::halfedge_normals(mesh, by_marks, marks);
+  for (const auto halfedge : mesh.halfedges()) CHECK(by_marks[halfedge] == normals[halfedge]);
+  const auto bottom = *mesh.faces().begin();
+  for (const auto edge : mesh.edges()) sharp[edge] = false;
+  for (const auto halfedge : mesh.halfedges_around_face(mesh.halfedge(bottom))) sharp[mesh.edge(halfedge)] = true;
+  marked = uc::marked_edges(mesh, sharp);
+  marks.mark(marked);
+  umbilic::feature_options by_these;
+  by_these.creases = &marks;
+  CHECK(marked.size() == 4 && uc::segment(mesh, by_these).count() == 2);
+}
+
+// In a graph whose vertices have no numbers of their own.
+void marked_edges_of_polyhedron() {
+  CGAL::Polyhedron_3<Epick> graph;
+  CGAL::copy_face_graph(sphere<Mesh<Epick>>(true), graph);
+  using Edge = boost::graph_traits<CGAL::Polyhedron_3<Epick>>::edge_descriptor;
+  std::map<Edge, bool> equator;
+  for (const auto edge : edges(graph)) {
+    equator[edge] = std::abs(source(edge, graph)->point().z()) < 1e-12 && std::abs(target(edge, graph)->point().z()) < 1e-12;
+  }
+  const auto marked = uc::marked_edges(graph, boost::make_assoc_property_map(equator));
+  CHECK(marked.size() == 32);
+  umbilic::creases marks;
+  marks.mark(marked);
+  umbilic::feature_options options;
+  options.creases = &marks;
+  std::map<boost::graph_traits<CGAL::Polyhedron_3<Epick>>::face_descriptor, std::size_t> labels;
+  CHECK(uc::segment(graph, boost::make_assoc_property_map(labels), options).count() == 2);
+  double heights[2] = {0, 0};
+  std::size_t faces[2] = {0, 0};
+  for (const auto &[face, label] : labels) {
+    const auto side = face->halfedge();
+    const double height = side->vertex()->point().z() + side->next()->vertex()->point().z() + side->prev()->vertex()->point().z();
+    CHECK(height * heights[label] >= 0);
+    heights[label] += height;
+    faces[label]++;
+  }
+  CHECK(faces[0] == faces[1] && heights[0] * heights[1] < 0);
 }
 
 void errors() {
@@ -305,6 +354,7 @@ int main() {
   polyhedron<Epick>();
   polyhedron<Epeck>();
   corners_of_cube();
+  marked_edges_of_polyhedron();
   errors();
   std::puts("cgal: four kernels and a graph without indices");
   return 0;
