@@ -19,7 +19,7 @@ PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
 .PHONY: help demo test test-rust test-c test-cpp test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
-  bench-instructions accuracy paper pictures header packages clean FORCE
+  bench-instructions bench-hosts accuracy paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
@@ -28,6 +28,7 @@ help:
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
 	@echo "make bench-instructions   instructions that each kernel takes, compared with those that are kept [UPDATE=1]"
+	@echo "make bench-hosts          what it costs in C++, OpenMesh, CGAL, Python, ...: docs/hosts.md [MESH=file.off]"
 	@echo "make accuracy             every estimator, and other libraries', on known surfaces: docs/accuracy.md"
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README; scans by umbilic, libigl and VCG: docs/scans.md"
@@ -39,7 +40,7 @@ help:
 
 $(LIBRARY): FORCE
 	$(CARGO) build --release --locked --features cli
-	ln -sf libumbilic.so target/release/libumbilic.so.0
+	[ -e target/release/libumbilic.so.0 ] || ln -s libumbilic.so target/release/libumbilic.so.0
 FORCE:
 
 # ---- demo ----
@@ -69,8 +70,15 @@ demo: $(LIBRARY)
 
 # ---- tests ----
 
-test: packages lint test-rust test-c test-cpp test-examples test-peers
+# As many parts at once as there are processors: the library's kernels are compiled by one, for minutes.
+JOBS ?= $(shell nproc)
+
+test: packages
+	@$(MAKE) --no-print-directory --jobs=$(JOBS) --output-sync=line test-all
 	@echo "All tests passed."
+
+.PHONY: test-all
+test-all: lint test-rust test-c test-cpp test-examples test-peers
 
 # Where the toolchain came without these two, the tests run without them.
 lint:
@@ -99,7 +107,7 @@ test-cpp: $(LIBRARY) | packages
 	CXX="$(CXX)" tests/cpp/test.sh
 
 # The C and C++ examples, OpenMesh and CGAL among them, on real meshes; the benchmarks are compiled.
-test-examples: $(LIBRARY) $(MESHES) | packages
+test-examples: $(LIBRARY) $(MESHES) bench-programs | packages
 	cmake -S examples_c -B $(CMAKE_BUILD) -DCMAKE_BUILD_TYPE=Release \
 	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
 	cmake --build $(CMAKE_BUILD)
@@ -111,7 +119,6 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
 	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
-	$(MAKE) --no-print-directory bench-programs
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
@@ -179,6 +186,19 @@ $(BENCH_TARGET)/venv/done: benches/speed/requirements.txt benches/speed/peers.tx
 	    echo "$$peer is not to be had: not compared with"; \
 	done < benches/speed/peers.txt
 	touch $@
+
+# ---- hosts ----
+
+HOSTS := target/hosts
+
+# What umbilic costs in each host: MeshLab and other languages are there once their tests have been run.
+bench-hosts: $(LIBRARY) $(MESHES) | packages
+	@mkdir -p $(HOSTS)
+	for host in structs openmesh cgal; do \
+	  $(CXX) -std=c++17 -O2 -DNDEBUG -Wall -Wextra -Wpedantic -Werror -Iinclude benches/hosts/$$host.cpp -o $(HOSTS)/$$host \
+	    -Ltarget/release -lumbilic -lOpenMeshCore -lgmp -lmpfr -Wl,-rpath,$(CURDIR)/target/release || exit 1; \
+	done
+	$(PYTHON) -B benches/hosts/hosts.py $(if $(MESH),"$(MESH)",$(MESHES)/refined_elephant.off)
 
 # ---- accuracy ----
 
