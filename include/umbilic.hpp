@@ -1904,6 +1904,48 @@ inline constexpr named<vectors> NAMED_VECTORS[] = {{quantity::direction1, "v:dir
                                             {quantity::normal, "v:fit_normal", &curvature_outputs::normal}};
 inline constexpr const char *STATUS_NAME = "v:curvature_status";
 
+/**
+ * Whether the positions of vertices that do not exist make no difference: they are finite, and in the box of those that do, by which default
+ * tolerances go.
+ */
+template <class Vector, class Exists>
+bool gaps_make_no_difference(const Vector *data, std::size_t count, const Exists &exists) {
+  using Scalar = std::decay_t<decltype(data[0][0])>;
+  constexpr Scalar FAR = std::numeric_limits<Scalar>::infinity();
+  const auto at = [&](std::size_t v) { return std::array<Scalar, 3>{data[v][0], data[v][1], data[v][2]}; };
+  std::array<Scalar, 3> low = {FAR, FAR, FAR}, high = {-FAR, -FAR, -FAR};
+  for (std::size_t v = 0; v < count; v++) {
+    if (!exists(v)) continue;
+    const std::array<Scalar, 3> position = at(v);
+    for (std::size_t k = 0; k < 3; k++) {
+      low[k] = std::min(low[k], position[k]);
+      high[k] = std::max(high[k], position[k]);
+    }
+  }
+  for (std::size_t v = 0; v < count; v++) {
+    if (exists(v)) continue;
+    const std::array<Scalar, 3> position = at(v);
+    for (std::size_t k = 0; k < 3; k++) {
+      if (!(low[k] <= position[k] && position[k] <= high[k])) return false;
+    }
+  }
+  return true;
+}
+
+/** Puts vertices that do not exist where the first one lies that does. */
+template <class Scalar, class Exists>
+void fill_gaps(std::vector<std::array<Scalar, 3>> &positions, const Exists &exists) {
+  std::array<Scalar, 3> first = {0, 0, 0};
+  for (std::size_t v = 0; v < positions.size(); v++) {
+    if (!exists(v)) continue;
+    first = positions[v];
+    break;
+  }
+  for (std::size_t v = 0; v < positions.size(); v++) {
+    if (!exists(v)) positions[v] = first;
+  }
+}
+
 }  // namespace detail
 
 /**

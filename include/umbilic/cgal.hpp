@@ -17,9 +17,8 @@
  * value is rounded), results by way of an array and `put`. Labels of segments and halfedge normals are copied.
  *
  * Removed elements of Surface_mesh, before `collect_garbage()`: removed faces count for nothing, and results of removed elements stay what they were,
- * unless the caller's own list names one: zeros are written there. Positions of removed vertices have to be finite for halfedge normals, segments
- * and adaptive jets without a model, and count in the bounding box that default tolerances go by; where points are converted, those of removed
- * vertices are put where another vertex is.
+ * unless the caller's own list names one: zeros are written there. Positions of removed vertices make no difference: where they lie
+ * outside the box of the others, or are not finite, positions are copied.
  *
  * Vertices are numbered (in lists, statuses, boundary edges) as in Surface_mesh, `idx()`, and in other graphs in the order of `vertices(graph)`;
  * faces in the order of `faces(graph)`. Errors are thrown, as `umbilic::error` (see umbilic.hpp).
@@ -132,39 +131,48 @@ const typename Map::value_type *data_of(const Map &map, std::size_t count) {
 template <class Graph, class Map>
 constexpr bool TAKES_VERTICES = std::is_convertible_v<vertex_of<Graph>, typename boost::property_traits<Map>::key_type>;
 
-/** Positions as calls take them, with what had to be copied. */
+/** Whether the vertex of a number has not been removed. */
+template <class Point>
+auto existence_in(const CGAL::Surface_mesh<Point> &mesh) {
+  return [&mesh](std::size_t number) {
+    using Vertex = typename CGAL::Surface_mesh<Point>::Vertex_index;
+    return !mesh.is_removed(Vertex(static_cast<typename Vertex::size_type>(number)));
+  };
+}
+
+/** Positions as calls take them, with what had to be copied. Those of removed vertices make no difference. */
 template <class Graph, class PointMap>
 class positions {
   static_assert(TAKES_VERTICES<Graph, PointMap>, "points belong to vertices");
+  using Point = std::decay_t<typename boost::property_traits<PointMap>::value_type>;
+  static constexpr bool IN_PLACE = is_array<Graph, PointMap>() && umbilic::detail::IS_VECTOR<Point, 3>;
+  using Scalar = std::conditional_t<IN_PLACE, typename vector_traits<Point>::scalar, double>;
 
  public:
   positions(const Graph &graph, const PointMap &map) : map_(map) {
-    using Point = std::decay_t<typename boost::property_traits<PointMap>::value_type>;
-    if constexpr (is_array<Graph, PointMap>() && umbilic::detail::IS_VECTOR<Point, 3>) {
-      view_ = points(data_of(map_, slots(graph)), slots(graph));
-    } else {
-      copied_.resize(slots(graph));
-      // Removed vertices lie where another does: anywhere else they would widen the bounding box that default tolerances go by.
-      std::vector<bool> is_there(copied_.size());
-      const std::array<double, 3> *first = nullptr;
-      for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) {
-        const auto &point = get(map, vertex);
-        copied_[slot] = {CGAL::to_double(point.x()), CGAL::to_double(point.y()), CGAL::to_double(point.z())};
-        is_there[slot] = true;
-        if (first == nullptr) first = &copied_[slot];
-      });
-      for (std::size_t slot = 0; slot < copied_.size() && first != nullptr; slot++) {
-        if (!is_there[slot]) copied_[slot] = *first;
-      }
-      view_ = points(copied_);
+    const std::size_t count = slots(graph);
+    if constexpr (IN_PLACE) {
+      view_ = points(data_of(map_, count), count);
+      if (graph.number_of_removed_vertices() == 0) return;
+      if (umbilic::detail::gaps_make_no_difference(data_of(map_, count), count, existence_in(graph))) return;
     }
+    copied_.resize(count);
+    for_each_vertex(graph, [&](const auto &vertex, std::size_t slot) {
+      const auto &point = get(map, vertex);
+      copied_[slot] = {static_cast<Scalar>(CGAL::to_double(point.x())), static_cast<Scalar>(CGAL::to_double(point.y())),
+                       static_cast<Scalar>(CGAL::to_double(point.z()))};
+    });
+    if constexpr (IS_SURFACE_MESH<Graph>) {
+      if (graph.number_of_removed_vertices() > 0) umbilic::detail::fill_gaps(copied_, existence_in(graph));
+    }
+    view_ = points(copied_);
   }
   positions(const positions &) = delete;
   operator const points &() const noexcept { return view_; }
 
  private:
   PointMap map_;
-  std::vector<std::array<double, 3>> copied_;
+  std::vector<std::array<Scalar, 3>> copied_;
   points view_;
 };
 

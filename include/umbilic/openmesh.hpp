@@ -16,8 +16,8 @@
  * were computed.
  *
  * Deleted elements, before `garbage_collection()`: deleted faces count for nothing, and results of deleted elements stay what they were,
- * unless the caller's own list names one: zeros are written there. Positions of deleted vertices have to be finite for halfedge normals, segments
- * and adaptive jets without a model, and count in the bounding box that default tolerances go by.
+ * unless the caller's own list names one: zeros are written there. Positions of deleted vertices make no difference: where they lie outside
+ * the box of the others, or are not finite, positions are copied.
  *
  * Errors are thrown, as `umbilic::error` (see umbilic.hpp). A property that has one of the names but another type is left alone, and another
  * added beside it.
@@ -51,28 +51,40 @@ using scalar = std::conditional_t<std::is_same_v<typename Mesh::Scalar, float>, 
 template <class Mesh>
 using vector = std::conditional_t<IN_PLACE<typename Mesh::Normal>, typename Mesh::Normal, OpenMesh::VectorT<scalar<Mesh>, 3>>;
 
-/** Positions as calls take them, with what had to be copied. */
+template <class Mesh>
+bool has_deleted_vertices(const Mesh &mesh) {
+  return mesh.has_vertex_status() && std::any_of(mesh.vertices_begin(), mesh.vertices_end(),
+                                                 [&](auto vertex) { return mesh.status(vertex).deleted(); });
+}
+
+/** Positions as calls take them, with what had to be copied. Those of deleted vertices make no difference. */
 template <class Mesh>
 class positions {
+  using Point = typename Mesh::Point;
+
  public:
-  explicit positions(const Mesh &mesh) {
-    using Point = typename Mesh::Point;
+  explicit positions(const Mesh &mesh) : positions(mesh, has_deleted_vertices(mesh)) {}
+  positions(const Mesh &mesh, bool has_gaps) {
+    const auto exists = [&](std::size_t v) { return !mesh.status(mesh.vertex_handle(static_cast<unsigned>(v))).deleted(); };
     if constexpr (IN_PLACE<Point>) {
       view_ = points(mesh.points(), mesh.n_vertices());
-    } else {
-      copied_.reserve(mesh.n_vertices());
-      for (std::size_t v = 0; v < mesh.n_vertices(); v++) {
-        const Point &point = mesh.points()[v];
-        copied_.push_back({static_cast<double>(point[0]), static_cast<double>(point[1]), static_cast<double>(point[2])});
-      }
-      view_ = points(copied_);
+      if (!has_gaps || umbilic::detail::gaps_make_no_difference(mesh.points(), mesh.n_vertices(), exists)) return;
     }
+    copied_.reserve(mesh.n_vertices());
+    for (std::size_t v = 0; v < mesh.n_vertices(); v++) {
+      const Point &point = mesh.points()[v];
+      copied_.push_back({static_cast<Scalar>(point[0]), static_cast<Scalar>(point[1]), static_cast<Scalar>(point[2])});
+    }
+    if (has_gaps) umbilic::detail::fill_gaps(copied_, exists);
+    view_ = points(copied_);
   }
   positions(const positions &) = delete;
   operator const points &() const noexcept { return view_; }
 
  private:
-  std::vector<std::array<double, 3>> copied_;
+  using Scalar = std::conditional_t<IN_PLACE<Point>, scalar<Mesh>, double>;
+
+  std::vector<std::array<Scalar, 3>> copied_;
   points view_;
 };
 
@@ -84,12 +96,6 @@ void have(Mesh &mesh, Property &property, const char *name) {
 template <class Mesh, class Property>
 auto &array_of(Mesh &mesh, Property property) {
   return mesh.property(property).data_vector();
-}
-
-template <class Mesh>
-bool has_deleted_vertices(const Mesh &mesh) {
-  return mesh.has_vertex_status() && std::any_of(mesh.vertices_begin(), mesh.vertices_end(),
-                                                 [&](auto vertex) { return mesh.status(vertex).deleted(); });
 }
 
 }  // namespace detail
@@ -134,7 +140,7 @@ void vertex_normals(Mesh &mesh, const host_topology &rings, const normal_options
                     const byte_output &statuses = byte_output()) {
   if (!mesh.has_vertex_normals()) mesh.request_vertex_normals();
   const normal_options options = rings.restrict_to_existing(weight_or_options);
-  const detail::positions<Mesh> where(mesh);
+  const detail::positions<Mesh> where(mesh, rings.has_gaps());
   normal_outputs into;
   into.status = statuses;
   if constexpr (detail::IN_PLACE<typename Mesh::Normal>) {
@@ -264,7 +270,7 @@ curvature_properties<Mesh> curvatures(Mesh &mesh, const host_topology &rings, co
     detail::have(mesh, property, umbilic::detail::STATUS_NAME);
     into.status = detail::array_of(mesh, property);
   }
-  const detail::positions<Mesh> positions(mesh);
+  const detail::positions<Mesh> positions(mesh, rings.has_gaps());
   umbilic::curvatures(rings, positions, into, rings.restrict_to_existing(options));
   return found;
 }

@@ -89,7 +89,7 @@ class ModCurvatureT : public OpenMesh::Decimater::ModQuadricT<MeshT> {
     into.curvedness = detail::array_of(mesh, curvedness_);
     into.normal = detail::array_of(mesh, normal_);
     const host_topology rings = build_topology(mesh);
-    const detail::positions<Mesh> positions(mesh);
+    const detail::positions<Mesh> positions(mesh, rings.has_gaps());
     umbilic::curvatures(rings, positions, into, rings.restrict_to_existing(options_));
     // What is flat to the size of the mesh: there quadrics alone decide.
     least_ = std::max(shape_tolerance(positions), std::numeric_limits<double>::min());

@@ -200,6 +200,31 @@ void deleted() {
     const std::uint32_t label = mesh.property(segment, face);
     CHECK(mesh.status(face).deleted() ? label == 99 : label < segments.count());
   }
+  // Wherever deleted vertices lie, or if they lie nowhere.
+  const auto compute = [](Mesh copy) {
+    std::vector<std::array<double, 3>> found;
+    const auto properties = um::curvatures(copy);
+    um::halfedge_normals(copy);
+    for (const auto vertex : copy.vertices()) found.push_back({copy.property(properties.k1, vertex), copy.property(properties.k2, vertex), 0});
+    for (const auto halfedge : copy.halfedges()) {
+      const auto &normal = copy.normal(halfedge);
+      found.push_back({static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])});
+    }
+    OpenMesh::FPropHandleT<std::uint32_t> label;
+    um::segment(copy, umbilic::region_options());
+    CHECK(copy.get_property_handle(label, "f:segment"));
+    for (const auto face : copy.faces()) found.push_back({static_cast<double>(copy.property(label, face)), 0, 0});
+    return found;
+  };
+  const auto expected = compute(mesh);
+  for (const double away : {1e4, static_cast<double>(NAN), -static_cast<double>(INFINITY)}) {
+    auto copy = mesh;
+    for (const auto vertex : copy.all_vertices()) {
+      if (copy.status(vertex).deleted()) copy.set_point(vertex, typename Mesh::Point(static_cast<um::detail::scalar<Mesh>>(away)));
+    }
+    CHECK(compute(copy) == expected);
+  }
+
   // A list of the caller's stays his.
   umbilic::normal_options options;
   const std::vector<std::uint32_t> one = {3};
