@@ -1,0 +1,104 @@
+/*
+ * Stands in for the library between a program and the real one, which it opens from UMBILIC_REAL, and appends a line to the file
+ * UMBILIC_RECORD for every call: what was called, on which handle, with how many threads, and how many milliseconds the library
+ * took. So tests see whether handles are freed once and options arrive, and how much of a program's time is the library's.
+ *
+ * A struct of the caller's whose size is not set is a defect of a binding, which ends the program.
+ */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <umbilic.h>
+
+static FILE *record;
+static uint32_t (*abi_version)(void);
+static umb_status (*topology_create)(const umb_faces *, size_t, const umb_topology_options *, umb_topology **, umb_error *);
+static void (*topology_destroy)(umb_topology *);
+static size_t (*topology_vertex_count)(const umb_topology *);
+static umb_status (*vertex_normals)(const umb_topology *, const umb_points *, const umb_normal_options *, const umb_normal_outputs *,
+                                    umb_error *);
+static umb_status (*curvatures)(const umb_topology *, const umb_points *, const umb_curvature_options *,
+                                const umb_curvature_outputs *, umb_error *);
+
+static void fail(const char *what) {
+  fprintf(stderr, "recorder: %s\n", what);
+  abort();
+}
+
+/* POSIX has functions in the void pointers that dlsym answers with; ISO C has no cast for that. */
+#define FIND(function) (*(void **)&function = dlsym(real, "umb_" #function), function != NULL ? (void)0 : fail(#function))
+
+__attribute__((constructor)) static void open_real(void) {
+  const char *path = getenv("UMBILIC_REAL");
+  void *real = path == NULL ? NULL : dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (real == NULL) fail("UMBILIC_REAL is not the library");
+  FIND(abi_version);
+  FIND(topology_create);
+  FIND(topology_destroy);
+  FIND(topology_vertex_count);
+  FIND(vertex_normals);
+  FIND(curvatures);
+  path = getenv("UMBILIC_RECORD");
+  record = path == NULL ? NULL : fopen(path, "a");
+  if (record == NULL) fail("UMBILIC_RECORD cannot be written");
+  setvbuf(record, NULL, _IOLBF, 0);
+}
+
+static double now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+}
+
+static void sized(uint32_t found, size_t expected, const char *what) {
+  if (found != expected) fail(what);
+}
+
+static void note(const char *call, const umb_topology *topology, uint32_t threads, double since, umb_status status) {
+  fprintf(record, "%s %p threads %u ms %.6f status %d\n", call, (const void *)topology, (unsigned)threads, now() - since, (int)status);
+}
+
+uint32_t umb_abi_version(void) { return abi_version(); }
+
+size_t umb_topology_vertex_count(const umb_topology *topology) { return topology_vertex_count(topology); }
+
+umb_status umb_topology_create(const umb_faces *faces, size_t vertex_count, const umb_topology_options *options,
+                               umb_topology **topology, umb_error *error) {
+  sized(error->struct_size, sizeof *error, "umb_error");
+  if (options != NULL) sized(options->struct_size, sizeof *options, "umb_topology_options");
+  double start = now();
+  umb_status status = topology_create(faces, vertex_count, options, topology, error);
+  note("create", status == UMB_OK ? *topology : NULL, options == NULL ? 0 : options->threads, start, status);
+  return status;
+}
+
+void umb_topology_destroy(umb_topology *topology) {
+  double start = now();
+  topology_destroy(topology);
+  note("destroy", topology, 0, start, UMB_OK);
+}
+
+umb_status umb_vertex_normals(const umb_topology *topology, const umb_points *points, const umb_normal_options *options,
+                              const umb_normal_outputs *outputs, umb_error *error) {
+  sized(error->struct_size, sizeof *error, "umb_error");
+  sized(outputs->struct_size, sizeof *outputs, "umb_normal_outputs");
+  if (options != NULL) sized(options->struct_size, sizeof *options, "umb_normal_options");
+  double start = now();
+  umb_status status = vertex_normals(topology, points, options, outputs, error);
+  note("normals", topology, options == NULL ? 0 : options->run.threads, start, status);
+  return status;
+}
+
+umb_status umb_curvatures(const umb_topology *topology, const umb_points *points, const umb_curvature_options *options,
+                          const umb_curvature_outputs *outputs, umb_error *error) {
+  sized(error->struct_size, sizeof *error, "umb_error");
+  sized(outputs->struct_size, sizeof *outputs, "umb_curvature_outputs");
+  if (options != NULL) sized(options->struct_size, sizeof *options, "umb_curvature_options");
+  double start = now();
+  umb_status status = curvatures(topology, points, options, outputs, error);
+  note("curvature", topology, options == NULL ? 0 : options->run.threads, start, status);
+  return status;
+}
