@@ -36,12 +36,12 @@ contains
   subroutine check(stat, element, errmsg)
     integer, intent(in) :: stat
     integer(c_int64_t), intent(in) :: element
-    character(:), allocatable, intent(in) :: errmsg
+    character(*), intent(in) :: errmsg
     character(80) :: where
     if (stat == 0) return
     write(where, '(a, i0, a, i0, a)') ' (status ', stat, ', element ', element, ')'
     if (element < 0) write(where, '(a, i0, a)') ' (status ', stat, ')'
-    call fail('umbilic: ' // errmsg // trim(where))
+    call fail('umbilic: ' // trim(errmsg) // trim(where))
   end subroutine
 
   !> The next line of an OFF file that says something.
@@ -101,8 +101,7 @@ contains
     type(vertex_curvatures) :: found
     integer :: stat, unit
     integer(c_int64_t) :: element
-    character(:), allocatable :: errmsg
-    character(256) :: message
+    character(256) :: errmsg
 
     ! begin: user code
     call mesh%create(indices, vertex_count, offsets, stat=stat, element=element, errmsg=errmsg)
@@ -113,8 +112,8 @@ contains
     call check(stat, element, errmsg)
     ! end: user code
 
-    open(newunit=unit, file=results, access='stream', status='replace', action='write', iostat=stat, iomsg=message)
-    if (stat /= 0) call fail(trim(message))
+    open(newunit=unit, file=results, access='stream', status='replace', action='write', iostat=stat, iomsg=errmsg)
+    if (stat /= 0) call fail(trim(errmsg))
     write(unit) normals%normal, normals%status, found%k1, found%k2, found%direction1, found%direction2, found%mean, &
       found%gaussian, found%status
     close(unit)

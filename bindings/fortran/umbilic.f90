@@ -7,8 +7,8 @@
 !
 ! Vertices and faces are counted from 0, as in files and in errors. Arrays are neither copied nor kept (a section that is not
 ! contiguous the compiler copies). Without stat, what the library refuses ends the program with its message (error stop); with
-! stat, which is then a UMB_ERROR_ constant or 0, errmsg is that message and element the offending corner, face, vertex or value, -1 if
-! there is none.
+! stat, which is then a UMB_ERROR_ constant or 0, errmsg receives that message (240 characters are enough for any) and element the
+! offending corner, face, vertex or value, -1 if there is none.
 ! A topology is freed by destroy, or where its variable ends; any number of threads may use it meanwhile.
 module umbilic
   use umbilic_c
@@ -50,7 +50,7 @@ contains
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     integer(c_int64_t), intent(out), optional :: element
-    character(:), allocatable, intent(out), optional :: errmsg
+    character(*), intent(inout), optional :: errmsg
     type(umb_faces) :: faces
     type(umb_topology_options) :: options
     type(umb_error) :: error
@@ -83,7 +83,7 @@ contains
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     integer(c_int64_t), intent(out), optional :: element
-    character(:), allocatable, intent(out), optional :: errmsg
+    character(*), intent(inout), optional :: errmsg
     type(umb_normal_options) :: options
     type(umb_normal_outputs) :: outputs
     type(umb_error) :: error
@@ -106,7 +106,7 @@ contains
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     integer(c_int64_t), intent(out), optional :: element
-    character(:), allocatable, intent(out), optional :: errmsg
+    character(*), intent(inout), optional :: errmsg
     type(umb_curvature_options) :: options
     type(umb_curvature_outputs) :: outputs
     type(umb_error) :: error
@@ -139,19 +139,19 @@ contains
     type(umb_error), intent(in) :: error
     integer, intent(out), optional :: stat
     integer(c_int64_t), intent(out), optional :: element
-    character(:), allocatable, intent(out), optional :: errmsg
-    character(:), allocatable :: message
-    integer :: i, length
+    character(*), intent(inout), optional :: errmsg
+    character(size(error%message)) :: message
+    integer :: i
 
     if (present(stat)) stat = status
     if (present(element)) element = -1
     if (status == UMB_OK) return
-    length = findloc(error%message, c_null_char, dim=1) - 1
-    allocate(character(length) :: message)
-    do i = 1, length
+    message = ''
+    do i = 1, size(error%message)
+      if (error%message(i) == c_null_char) exit
       message(i:i) = error%message(i)
     end do
-    if (.not. present(stat)) error stop 'umbilic: ' // message
+    if (.not. present(stat)) error stop 'umbilic: ' // trim(message)
     if (present(element)) element = error%element
     if (present(errmsg)) errmsg = message
   end subroutine

@@ -108,12 +108,6 @@ type Topology struct {
 // NewTopology takes the vertices of all faces, one face after the other, from 0; where each face starts and the last ends, or nil for
 // triangles; and a number of threads. Close it when done.
 func NewTopology(indices, offsets []uint32, vertexCount int, threads uint32) (*Topology, error) {
-	if vertexCount < 0 {
-		return nil, &Error{Status: C.UMB_ERROR_SIZE, Message: fmt.Sprintf("vertexCount is %d", vertexCount)}
-	}
-	if offsets != nil && len(offsets) == 0 {
-		return nil, &Error{Status: C.UMB_ERROR_SIZE, Message: "offsets are empty, expected one more than faces"}
-	}
 	faceCount := 0
 	if offsets != nil {
 		faceCount = len(offsets) - 1

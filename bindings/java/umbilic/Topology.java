@@ -49,12 +49,10 @@ public final class Topology implements AutoCloseable {
    * @param threads 0 for as many as pay
    */
   public Topology(IntBuffer indices, IntBuffer offsets, int vertexCount, int threads) {
-    if (vertexCount < 0) throw new IllegalArgumentException("vertexCount is " + vertexCount);
     var faces = new Native.Faces();
     faces.indices = Buffers.direct(indices);
     faces.index_count = indices.remaining();
     if (offsets != null) {
-      if (!offsets.hasRemaining()) throw new IllegalArgumentException("offsets are empty, expected one more than faces");
       faces.offsets = Buffers.direct(offsets);
       faces.face_count = offsets.remaining() - 1;
     }
