@@ -142,11 +142,11 @@ FFI_fortran := gfortran
 
 # The programs of bindings/ on real meshes: the same bits as from C, and a decent answer to every mistake. Some two minutes.
 test-ffi: $(LIBRARY) $(MESHES) ffi-packages
-	$(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
+	CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
 
 # Lines of host, quantity, copies, milliseconds of the library, milliseconds of the host.
 time-ffi: $(LIBRARY) ffi-packages
-	@$(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
+	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
 
 ffi-packages:
 	@.ci/packages gcc python3 $(foreach language,$(LANGUAGES),$(FFI_$(language)))

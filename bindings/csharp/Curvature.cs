@@ -101,9 +101,6 @@ internal static class Program {
       if (arguments[0] == "--time") Time(arguments[1]);
       else Compute(arguments[0], arguments[1]);
       return 0;
-    } catch (UmbilicException refusal) {
-      string element = refusal.Element == null ? "" : $", element {refusal.Element}";
-      Console.Error.WriteLine($"{refusal.GetType().Name}: {refusal.Message} (status {refusal.Status}{element})");
     } catch (Exception failure) {
       Console.Error.WriteLine($"{failure.GetType().Name}: {failure.Message}");
     }

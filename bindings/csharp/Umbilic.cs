@@ -19,7 +19,8 @@ public class UmbilicException : Exception {
   /// <summary>The offending corner, face, vertex or value; null if there is none.</summary>
   public ulong? Element { get; }
 
-  public UmbilicException(int status, string message, ulong? element = null) : base(message) {
+  public UmbilicException(int status, string message, ulong? element = null)
+      : base(message + (element == null ? $" (status {status})" : $" (status {status}, element {element})")) {
     Status = status;
     Element = element;
   }
@@ -33,7 +34,7 @@ public class Normals {
   public byte[] Status { get; }
 
   internal Normals(int vertices) {
-    Normal = new double[3 * vertices];
+    Normal = new double[checked(3 * vertices)];
     Status = new byte[vertices];
   }
 }
@@ -52,8 +53,8 @@ public class Curvatures {
   internal Curvatures(int vertices) {
     K1 = new double[vertices];
     K2 = new double[vertices];
-    Direction1 = new double[3 * vertices];
-    Direction2 = new double[3 * vertices];
+    Direction1 = new double[checked(3 * vertices)];
+    Direction2 = new double[checked(3 * vertices)];
     Mean = new double[vertices];
     Gaussian = new double[vertices];
     Status = new byte[vertices];

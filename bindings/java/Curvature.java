@@ -21,7 +21,6 @@ import umbilic.Buffers;
 import umbilic.Curvatures;
 import umbilic.Normals;
 import umbilic.Topology;
-import umbilic.UmbilicException;
 
 public class Curvature {
   static class Mesh {
@@ -115,10 +114,6 @@ public class Curvature {
       if (arguments.length != 2) throw new IllegalArgumentException("usage: Curvature MESH.off RESULTS | --time MESH.off");
       if (arguments[0].equals("--time")) time(Path.of(arguments[1]));
       else compute(Path.of(arguments[0]), Path.of(arguments[1]));
-    } catch (UmbilicException refusal) {
-      String element = refusal.element().isPresent() ? ", element " + refusal.element().getAsLong() : "";
-      System.err.println(refusal + " (status " + refusal.status() + element + ")");
-      System.exit(1);
     } catch (IOException | RuntimeException failure) {
       System.err.println(failure);
       System.exit(1);

@@ -59,7 +59,6 @@ try {
   if (first === '--time') time(second);
   else main(first, second);
 } catch (error) {
-  const { status, element } = error;
-  console.error(`${error}`, status === undefined ? '' : element === null ? `(status ${status})` : `(status ${status}, element ${element})`);
+  console.error(String(error));
   process.exitCode = 1;
 }

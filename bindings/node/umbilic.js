@@ -116,7 +116,7 @@ const NO_ELEMENT = 0xffffffffffffffffn;
 /** What the library refused: its status, and the offending element, or null. */
 export class UmbilicError extends Error {
   constructor(status, message, element = null) {
-    super(message);
+    super(`${message} (status ${status}${element === null ? '' : `, element ${element}`})`);
     this.name = 'UmbilicError';
     this.status = status;
     this.element = element;

@@ -6,10 +6,14 @@
  * With UMBILIC_REPEAT, calls are made a second time on the same arrays, which are warm then, and the line ends with how many milliseconds
  * that took: what a program takes beyond twice that is its own.
  *
- * A struct of the caller's whose size is not set is a defect of a binding, which ends the program.
+ * With UMBILIC_SLOW, calls begin a millisecond later, so that others come in between.
+ *
+ * A struct of the caller's whose size is not set, and a topology that is freed while a call uses it, are defects of a binding, which end
+ * the program.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -17,7 +21,9 @@
 #include <umbilic.h>
 
 static FILE *record;
-static int repeat;
+static int repeat, slow;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static const umb_topology *in_use[256]; /* a place for each call that is under way */
 static uint32_t (*abi_version)(void);
 static umb_status (*topology_create)(const umb_faces *, size_t, const umb_topology_options *, umb_topology **, umb_error *);
 static void (*topology_destroy)(umb_topology *);
@@ -50,6 +56,7 @@ __attribute__((constructor)) static void open_real(void) {
   if (record == NULL) fail("UMBILIC_RECORD cannot be written");
   setvbuf(record, NULL, _IOLBF, 0);
   repeat = getenv("UMBILIC_REPEAT") != NULL;
+  slow = getenv("UMBILIC_SLOW") != NULL;
 }
 
 static double now(void) {
@@ -60,6 +67,29 @@ static double now(void) {
 
 static void sized(uint32_t found, size_t expected, const char *what) {
   if (found != expected) fail(what);
+}
+
+/* The first place of a topology among those in use, or of null, which is free. */
+static const umb_topology **place_of(const umb_topology *topology) {
+  for (size_t i = 0; i < sizeof in_use / sizeof in_use[0]; i++) {
+    if (in_use[i] == topology) return &in_use[i];
+  }
+  return NULL;
+}
+
+static void begin(const umb_topology *topology) {
+  pthread_mutex_lock(&lock);
+  const umb_topology **place = place_of(NULL);
+  if (place == NULL) fail("too many calls at once");
+  *place = topology;
+  pthread_mutex_unlock(&lock);
+  if (slow) nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+static void end(const umb_topology *topology) {
+  pthread_mutex_lock(&lock);
+  *place_of(topology) = NULL;
+  pthread_mutex_unlock(&lock);
 }
 
 static void note(const char *call, const umb_topology *topology, uint32_t threads, umb_status status, double milliseconds) {
@@ -87,6 +117,9 @@ umb_status umb_topology_create(const umb_faces *faces, size_t vertex_count, cons
 }
 
 void umb_topology_destroy(umb_topology *topology) {
+  pthread_mutex_lock(&lock);
+  if (topology != NULL && place_of(topology) != NULL) fail("a topology is freed while a call uses it");
+  pthread_mutex_unlock(&lock);
   note("destroy", topology, 0, UMB_OK, 0.0);
   topology_destroy(topology);
 }
@@ -96,10 +129,12 @@ umb_status umb_vertex_normals(const umb_topology *topology, const umb_points *po
   sized(error->struct_size, sizeof *error, "umb_error");
   sized(outputs->struct_size, sizeof *outputs, "umb_normal_outputs");
   if (options != NULL) sized(options->struct_size, sizeof *options, "umb_normal_options");
+  begin(topology);
   umb_status status = vertex_normals(topology, points, options, outputs, error);
   double start = now();
   if (repeat) status = vertex_normals(topology, points, options, outputs, error);
   note("normals", topology, options == NULL ? 0 : options->run.threads, status, now() - start);
+  end(topology);
   return status;
 }
 
@@ -108,9 +143,11 @@ umb_status umb_curvatures(const umb_topology *topology, const umb_points *points
   sized(error->struct_size, sizeof *error, "umb_error");
   sized(outputs->struct_size, sizeof *outputs, "umb_curvature_outputs");
   if (options != NULL) sized(options->struct_size, sizeof *options, "umb_curvature_options");
+  begin(topology);
   umb_status status = curvatures(topology, points, options, outputs, error);
   double start = now();
   if (repeat) status = curvatures(topology, points, options, outputs, error);
   note("curvature", topology, options == NULL ? 0 : options->run.threads, status, now() - start);
+  end(topology);
   return status;
 }

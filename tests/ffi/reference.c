@@ -56,14 +56,17 @@ static struct mesh read_off(const char *path) {
   mesh.positions = array(mesh.vertex_count, 3 * sizeof(double));
   mesh.offsets = array(mesh.face_count + 1, sizeof(uint32_t));
   mesh.indices = array(0, sizeof(uint32_t));
-  for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] = strtod(word(file), NULL);
+  for (size_t v = 0; v < mesh.vertex_count; v++) {
+    for (size_t axis = 0; axis < 3; axis++) mesh.positions[3 * v + axis] = strtod(word(file), NULL);
+    skip_line(file); /* colours, here and below */
+  }
   mesh.offsets[0] = 0;
   for (size_t f = 0; f < mesh.face_count; f++) {
     size_t corners = strtoul(word(file), NULL, 10);
     mesh.indices = need(realloc(mesh.indices, (mesh.index_count + corners) * sizeof(uint32_t) + 1));
     for (size_t i = 0; i < corners; i++) mesh.indices[mesh.index_count++] = (uint32_t)strtoul(word(file), NULL, 10);
     mesh.offsets[f + 1] = (uint32_t)mesh.index_count;
-    skip_line(file); /* colours */
+    skip_line(file);
   }
   fclose(file);
   return mesh;

@@ -9,6 +9,11 @@ import java.nio.IntBuffer;
 public final class Buffers {
   private Buffers() {}
 
+  /** What vertices have three of. */
+  static DoubleBuffer vectors(int count) {
+    return doubles(Math.multiplyExact(count, 3));
+  }
+
   public static DoubleBuffer doubles(int count) {
     return bytes(Math.multiplyExact(count, Double.BYTES)).asDoubleBuffer();
   }

@@ -18,8 +18,8 @@ public final class Curvatures {
   Curvatures(int vertices) {
     k1 = Buffers.doubles(vertices);
     k2 = Buffers.doubles(vertices);
-    direction1 = Buffers.doubles(3 * vertices);
-    direction2 = Buffers.doubles(3 * vertices);
+    direction1 = Buffers.vectors(vertices);
+    direction2 = Buffers.vectors(vertices);
     mean = Buffers.doubles(vertices);
     gaussian = Buffers.doubles(vertices);
     status = Buffers.bytes(vertices);

@@ -12,7 +12,7 @@ public final class Normals {
   public final ByteBuffer status;
 
   Normals(int vertices) {
-    normal = Buffers.doubles(3 * vertices);
+    normal = Buffers.vectors(vertices);
     status = Buffers.bytes(vertices);
   }
 }

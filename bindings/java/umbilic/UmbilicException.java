@@ -10,7 +10,7 @@ public class UmbilicException extends RuntimeException {
   private final transient OptionalLong element;
 
   UmbilicException(int status, String message, OptionalLong element) {
-    super(message);
+    super(message + " (status " + status + (element.isPresent() ? ", element " + element.getAsLong() : "") + ")");
     this.status = status;
     this.element = element;
   }

@@ -83,6 +83,7 @@ internal static class Check {
         } catch (ObjectDisposedException) {
         }
       })).ToArray();
+      Thread.Sleep(round % 2); // milliseconds
       mesh.Dispose();
       Task.WaitAll(calls);
     }
@@ -113,9 +114,6 @@ internal static class Check {
     try {
       Actions[arguments[0]]();
       return 0;
-    } catch (UmbilicException refusal) {
-      string element = refusal.Element == null ? "" : $", element {refusal.Element}";
-      Console.Error.WriteLine($"{refusal.GetType().Name}: {refusal.Message} (status {refusal.Status}{element})");
     } catch (Exception failure) {
       Console.Error.WriteLine($"{failure.GetType().Name}: {failure.Message}");
     }

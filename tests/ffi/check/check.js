@@ -66,7 +66,6 @@ const actions = {
 try {
   await actions[process.argv[2]]();
 } catch (error) {
-  const { status, element } = error;
-  console.error(`${error}`, status === undefined ? '' : element === null ? `(status ${status})` : `(status ${status}, element ${element})`);
+  console.error(String(error));
   process.exitCode = 1;
 }

@@ -115,6 +115,7 @@ var actions = map[string]func(){
 					check(err == nil && len(found.K1) == 4 || errors.As(err, &refusal))
 				}()
 			}
+			time.Sleep(500 * time.Microsecond)
 			mesh.Close()
 			group.Wait()
 		}
