@@ -72,6 +72,9 @@ public sealed unsafe class Topology : IDisposable {
   /// <param name="vertexCount">the number of vertices</param>
   /// <param name="threads">0 for as many as pay</param>
   public Topology(uint[] indices, uint[] offsets, int vertexCount, uint threads = 0) {
+    if (Native.umb_abi_version() != 0) {
+      throw new DllNotFoundException("libumbilic has another binary interface than Umbilic.cs");
+    }
     if (indices == null) throw new ArgumentNullException(nameof(indices));
     if (vertexCount < 0) throw new ArgumentOutOfRangeException(nameof(vertexCount));
     if (offsets != null && offsets.Length == 0) throw new ArgumentException("one more than faces", nameof(offsets));
@@ -148,11 +151,7 @@ internal sealed class TopologyHandle : SafeHandle {
 internal static unsafe class Native {
   private const string Library = "libumbilic.so.0";
 
-  static Native() {
-    if (umb_abi_version() != 0) throw new DllNotFoundException("libumbilic has another binary interface than Umbilic.cs");
-  }
-
-  [DllImport(Library)] private static extern uint umb_abi_version();
+  [DllImport(Library)] internal static extern uint umb_abi_version();
   [DllImport(Library)] internal static extern int umb_topology_create(Faces* faces, UIntPtr vertexCount, TopologyOptions* options,
                                                                       out TopologyHandle topology, Error* error);
   [DllImport(Library)] internal static extern void umb_topology_destroy(IntPtr topology);

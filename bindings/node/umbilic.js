@@ -142,6 +142,12 @@ function required(array, type, what) {
   return array;
 }
 
+// koffi ends the process where a field of a struct should be a number and is none.
+function natural(number, what) {
+  if (!Number.isSafeInteger(number) || number < 0) throw new RangeError(`${what} must be an integer from 0`);
+  return number;
+}
+
 function pointsOf(positions) {
   required(positions, Float64Array, 'positions');
   if (positions.length % 3 !== 0) throw new UmbilicError(SIZE, 'positions are no multiple of 3 numbers');
@@ -173,7 +179,8 @@ export class Topology {
       faces.face_count = offsets.length - 1;
     }
     const handle = [null];
-    call(functions.create, faces, vertexCount, sized('umb_topology_options', { threads }), handle);
+    const options = sized('umb_topology_options', { threads: natural(threads, 'threads') });
+    call(functions.create, faces, natural(vertexCount, 'vertexCount'), options, handle);
     this.#handle = handle[0];
     forgotten.register(this, this.#handle, this);
   }
@@ -193,7 +200,7 @@ export class Topology {
   vertexNormals(positions, threads = 0) {
     const vertices = this.vertexCount;
     const normals = { normal: new Float64Array(3 * vertices), status: new Uint8Array(vertices) };
-    const options = sized('umb_normal_options', { run: { threads } });
+    const options = sized('umb_normal_options', { run: { threads: natural(threads, 'threads') } });
     call(functions.vertexNormals, this.#handle, pointsOf(positions), options, outputsOf('umb_normal_outputs', normals));
     return normals;
   }
@@ -210,7 +217,7 @@ export class Topology {
       gaussian: new Float64Array(vertices),
       status: new Uint8Array(vertices),
     };
-    const options = sized('umb_curvature_options', { run: { threads } });
+    const options = sized('umb_curvature_options', { run: { threads: natural(threads, 'threads') } });
     call(functions.curvatures, this.#handle, pointsOf(positions), options, outputsOf('umb_curvature_outputs', curvatures));
     return curvatures;
   }

@@ -114,6 +114,13 @@ MISTAKES = {
 OTHERWISE = {
     ("node", "type"): "TypeError: positions must be a Float64Array",
     ("node", "missing"): "TypeError: positions must be a Float64Array",
+    ("node", "count"): "RangeError: vertexCount must be an integer from 0",
+    ("node", "threads-of-topology"): "RangeError: threads must be an integer from 0",
+    ("node", "threads-of-normals"): "RangeError: threads must be an integer from 0",
+    ("node", "threads-of-curvatures"): "RangeError: threads must be an integer from 0",
+    ("lua", "threads-of-topology"): "cannot convert 'string'",
+    ("lua", "threads-of-normals"): "cannot convert 'string'",
+    ("lua", "threads-of-curvatures"): "cannot convert 'table'",
     ("go", "ragged"): None,
     ("go", "type"): None,
     ("java", "type"): None,
