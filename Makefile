@@ -140,7 +140,7 @@ FFI_csharp := mono-mcs mono-runtime
 FFI_lua := luajit
 FFI_fortran := gfortran
 
-# The programs of bindings/ on real meshes: the same bits as from C, and a decent answer to every mistake. Some two minutes.
+# The programs of bindings/ on real meshes: the same bits as from C, and a decent answer to every mistake. A minute or two.
 test-ffi: $(LIBRARY) $(MESHES) ffi-packages
 	CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
 

@@ -1,10 +1,9 @@
 /*
  * Stands in for the library between a program and the real one, which it opens from UMBILIC_REAL, and appends a line to the file
- * UMBILIC_RECORD for every call: what was called, on which handle, with how many threads. So tests see whether handles are freed once
- * and options arrive.
+ * UMBILIC_RECORD for every call: what was called, on which handle, with how many threads, what it answered and how many milliseconds
+ * it took. So tests see whether handles are freed once and options arrive.
  *
- * With UMBILIC_REPEAT, calls are made a second time on the same arrays, which are warm then, and the line ends with how many milliseconds
- * that took: what a program takes beyond twice that is its own.
+ * With UMBILIC_REPEAT, calls are made a second time on the same arrays, which are warm then; the line ends with what that took.
  *
  * With UMBILIC_SLOW, calls begin a millisecond later, so that others come in between.
  *
@@ -92,8 +91,14 @@ static void end(const umb_topology *topology) {
   pthread_mutex_unlock(&lock);
 }
 
-static void note(const char *call, const umb_topology *topology, uint32_t threads, umb_status status, double milliseconds) {
-  fprintf(record, "%s %p threads %u status %d ms %.6f\n", call, (const void *)topology, (unsigned)threads, (int)status, milliseconds);
+/* From the start of the call to its end, and on to the end of the second. */
+struct times {
+  double start, end, again;
+};
+
+static void note(const char *call, const umb_topology *topology, uint32_t threads, umb_status status, struct times times) {
+  fprintf(record, "%s %p threads %u status %d ms %.6f %.6f\n", call, (const void *)topology, (unsigned)threads, (int)status,
+          times.end - times.start, times.again - times.end);
 }
 
 uint32_t umb_abi_version(void) { return abi_version(); }
@@ -104,15 +109,16 @@ umb_status umb_topology_create(const umb_faces *faces, size_t vertex_count, cons
                                umb_topology **topology, umb_error *error) {
   sized(error->struct_size, sizeof *error, "umb_error");
   if (options != NULL) sized(options->struct_size, sizeof *options, "umb_topology_options");
+  struct times times = {.start = now()};
   umb_status status = topology_create(faces, vertex_count, options, topology, error);
-  double start = now(), end = start;
+  times.end = times.again = now();
   if (repeat && status == UMB_OK) {
     umb_topology *again = NULL;
     status = topology_create(faces, vertex_count, options, &again, error);
-    end = now();
+    times.again = now();
     topology_destroy(again);
   }
-  note("create", status == UMB_OK ? *topology : NULL, options == NULL ? 0 : options->threads, status, end - start);
+  note("create", status == UMB_OK ? *topology : NULL, options == NULL ? 0 : options->threads, status, times);
   return status;
 }
 
@@ -120,7 +126,7 @@ void umb_topology_destroy(umb_topology *topology) {
   pthread_mutex_lock(&lock);
   if (topology != NULL && place_of(topology) != NULL) fail("a topology is freed while a call uses it");
   pthread_mutex_unlock(&lock);
-  note("destroy", topology, 0, UMB_OK, 0.0);
+  note("destroy", topology, 0, UMB_OK, (struct times){0});
   topology_destroy(topology);
 }
 
@@ -130,10 +136,12 @@ umb_status umb_vertex_normals(const umb_topology *topology, const umb_points *po
   sized(outputs->struct_size, sizeof *outputs, "umb_normal_outputs");
   if (options != NULL) sized(options->struct_size, sizeof *options, "umb_normal_options");
   begin(topology);
+  struct times times = {.start = now()};
   umb_status status = vertex_normals(topology, points, options, outputs, error);
-  double start = now();
+  times.end = now();
   if (repeat) status = vertex_normals(topology, points, options, outputs, error);
-  note("normals", topology, options == NULL ? 0 : options->run.threads, status, now() - start);
+  times.again = now();
+  note("normals", topology, options == NULL ? 0 : options->run.threads, status, times);
   end(topology);
   return status;
 }
@@ -144,10 +152,12 @@ umb_status umb_curvatures(const umb_topology *topology, const umb_points *points
   sized(outputs->struct_size, sizeof *outputs, "umb_curvature_outputs");
   if (options != NULL) sized(options->struct_size, sizeof *options, "umb_curvature_options");
   begin(topology);
+  struct times times = {.start = now()};
   umb_status status = curvatures(topology, points, options, outputs, error);
-  double start = now();
+  times.end = now();
   if (repeat) status = curvatures(topology, points, options, outputs, error);
-  note("curvature", topology, options == NULL ? 0 : options->run.threads, status, now() - start);
+  times.again = now();
+  note("curvature", topology, options == NULL ? 0 : options->run.threads, status, times);
   end(topology);
   return status;
 }

@@ -268,7 +268,7 @@ def recorded(command, library, **more):
     variables = environment(BUILT / "recorder/libumbilic.so", UMBILIC_REAL=str(library), UMBILIC_RECORD=str(record), **more)
     done = run(command, env=variables, capture_output=True)
     lines = record.read_text().splitlines() if record.exists() else []
-    return done, [re.fullmatch(r"(\w+) (\S+) threads (\d+) status (\d+) ms (\S+)", line).groups() for line in lines]
+    return done, [re.fullmatch(r"(\w+) (\S+) threads (\d+) status (\d+) ms (\S+) (\S+)", line).groups() for line in lines]
 
 
 # ---- times ----
@@ -279,16 +279,19 @@ COPIES = 0  # of positions, faces and results
 
 
 def times(library, language, curvature, mesh):
-    """The best of the rounds of one process, on one thread. In each round the recorder makes every call a second time, for the library's
-    own time on the same arrays; what the program took beyond both is its own, and is compared with the best of the library's."""
+    """The best of the rounds of one process, on one thread. In each round the recorder makes every call a second time, on the same arrays,
+    which are warm then: that is the library's own time. The program's is what it took beyond both calls, and what the first takes
+    longer, on arrays that the program has just made."""
     done, calls = recorded([*curvature, "--time", mesh], library, UMBILIC_REPEAT="1")
     if done.returncode != 0:
         sys.exit(done.stderr)
     rounds = [[float(number) for number in line.split()] for line in done.stdout.splitlines()]
     for place, (call, quantity) in enumerate(QUANTITIES.items()):
-        alone = [float(milliseconds) for name, *_, milliseconds in calls if name == call]
-        whole = [times[place] - again for times, again in zip(rounds, alone, strict=True)]
-        print(HOSTS.get(language, language), quantity, COPIES, f"{min(alone):.3f}", f"{min(whole) - min(alone):.3f}", sep="\t")
+        first, again = zip(*((float(first), float(again)) for name, *_, first, again in calls if name == call))
+        outside = min(whole[place] - a - b for whole, a, b in zip(rounds, first, again, strict=True))
+        library_alone = min(*first, *again)
+        adapter = outside + min(first) - library_alone
+        print(HOSTS.get(language, language), quantity, COPIES, f"{library_alone:.3f}", f"{adapter:.3f}", sep="\t")
 
 
 def main(library, what, *rest):
