@@ -97,7 +97,7 @@ internal static class Check {
     ["indices-size"] = () => new Topology(Indices().Take(11).ToArray(), null, 4),
     ["count"] = () => new Topology(Indices(), null, -1),
     ["positions-size"] = () => Tetrahedron().VertexNormals(Positions().Take(9).ToArray()),
-    ["ragged"] = () => Tetrahedron().Curvatures(Positions().Take(11).ToArray()),
+    ["ragged"] = () => Tetrahedron().Curvatures(new double[13]),
     ["missing"] = () => Tetrahedron().Curvatures(null),
     ["nan-normals"] = () => Tetrahedron().VertexNormals(With(Positions(), 7, double.NaN)),
     ["nan-curvatures"] = () => Tetrahedron().Curvatures(With(Positions(), 7, double.NaN)),

@@ -123,7 +123,7 @@ class Check {
           Map.entry("indices-size", () -> new Topology(indices().limit(11), null, 4)),
           Map.entry("count", () -> new Topology(indices(), null, -1)),
           Map.entry("positions-size", () -> tetrahedron().vertexNormals(positions().limit(9))),
-          Map.entry("ragged", () -> tetrahedron().curvatures(positions().limit(11))),
+          Map.entry("ragged", () -> tetrahedron().curvatures(DoubleBuffer.allocate(13))),
           Map.entry("missing", () -> tetrahedron().curvatures(null)),
           Map.entry("nan-normals", () -> tetrahedron().vertexNormals(positions().put(7, Double.NaN))),
           Map.entry("nan-curvatures", () -> tetrahedron().curvatures(positions().put(7, Double.NaN))),
