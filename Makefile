@@ -8,6 +8,7 @@ MESH ?=
 BENCH ?=
 SANITIZE ?=
 SECONDS ?= 60
+LANGUAGES ?= node go java csharp lua fortran
 TARGETS ?= topology normals curvature segmentation polyline readers differential
 
 LIBRARY := target/release/libumbilic.so
@@ -18,12 +19,14 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
-.PHONY: help demo test test-rust test-c test-cpp test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
-  bench-instructions bench-hosts accuracy paper pictures header packages clean FORCE
+.PHONY: help demo test test-all test-rust test-c test-cpp test-examples test-peers test-ffi time-ffi ffi-packages lint abi sanitize \
+  fuzz fuzz-build bench bench-programs bench-instructions bench-hosts accuracy paper pictures header packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
+	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
+	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
 	@echo "make abi                  the binary interface against that of version 0.1.0"
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
@@ -77,7 +80,6 @@ test: packages
 	@$(MAKE) --no-print-directory --jobs=$(JOBS) --output-sync=line test-all
 	@echo "All tests passed."
 
-.PHONY: test-all
 test-all: lint test-rust test-c test-cpp test-examples test-peers
 
 # Where the toolchain came without these two, the tests run without them.
@@ -133,6 +135,27 @@ $(VENV)/done: tests/peers/requirements.txt | packages
 
 $(MESHES): | packages
 	tests/peers/meshes.sh target/meshes
+
+# ---- other languages ----
+
+# Where npm is there, Node came with it, be it Debian's or another.
+FFI_node = $(if $(shell command -v npm),,nodejs npm)
+FFI_go := golang-go
+FFI_java := default-jdk-headless libjna-java
+FFI_csharp := mono-mcs mono-runtime
+FFI_lua := luajit
+FFI_fortran := gfortran
+
+# The programs of bindings/ on real meshes: the same bits as from C, and a decent answer to every mistake. A minute or two.
+test-ffi: $(LIBRARY) $(MESHES) ffi-packages
+	CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
+
+# Lines of host, quantity, copies, milliseconds of the library, milliseconds of the host.
+time-ffi: $(LIBRARY) ffi-packages
+	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
+
+ffi-packages:
+	@.ci/packages gcc python3 $(foreach language,$(LANGUAGES),$(FFI_$(language)))
 
 # ---- the binary interface ----
 

@@ -1,0 +1,3 @@
+module umbilic
+
+go 1.19

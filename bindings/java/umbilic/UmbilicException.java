@@ -1,0 +1,27 @@
+package umbilic;
+
+import java.util.OptionalLong;
+
+/** What the library refused. */
+public class UmbilicException extends RuntimeException {
+  private static final long serialVersionUID = 1;
+
+  private final int status;
+  private final transient OptionalLong element;
+
+  UmbilicException(int status, String message, OptionalLong element) {
+    super(message + " (status " + status + (element.isPresent() ? ", element " + element.getAsLong() : "") + ")");
+    this.status = status;
+    this.element = element;
+  }
+
+  /** A UMB_ERROR_ constant. */
+  public int status() {
+    return status;
+  }
+
+  /** The offending corner, face, vertex or value. */
+  public OptionalLong element() {
+    return element;
+  }
+}
