@@ -39,7 +39,6 @@ double quantile(std::vector<double> &some, double part) {
 }
 
 void color_vertices(CMeshO &mesh, const std::vector<std::uint8_t> &statuses, Subject subject, Colors colors, double percentile) {
-  if (!(percentile >= 0.0 && percentile <= 100.0)) throw std::invalid_argument("the parameter \"percentile\" is not within 0 to 100");
   const bool signless = colors == Colors::diverging;
   std::vector<double> values;
   for (std::size_t v = 0; v < mesh.vert.size(); v++) {
@@ -211,8 +210,10 @@ void FilterUmbilic::curvature(MeshModel &model, const RichParameterList &given, 
   options.progress = progress;
   const Subject subject = choice(given, "quality", Subject::none);
   const Colors colors = choice(given, "colors", Colors::none);
+  const double percentile = percentage(given, "percentile");
   const umbilic::quantities of_method = umbilic::quantity::of_method(options.method);
   const bool has_principal = has(of_method, umbilic::quantity::k1), has_directions = has(of_method, umbilic::quantity::direction1);
+  if (!has_principal && (subject == Subject::k1 || subject == Subject::k2)) throw std::invalid_argument("the method has no principal curvatures");
   Stopwatch watch;
   const mesh_faces faces = faces_of(mesh);
   const double faces_ms = watch.lap();
@@ -243,13 +244,12 @@ void FilterUmbilic::curvature(MeshModel &model, const RichParameterList &given, 
   const double library_ms = watch.lap();
 
   if (subject == Subject::k1 || subject == Subject::k2) {
-    if (!has_principal) throw std::invalid_argument("the method has no principal curvatures");
     for (CVertexO &vertex : mesh.vert) vertex.Q() = static_cast<float>(subject == Subject::k1 ? vertex.K1() : vertex.K2());
   }
   if (subject != Subject::none) {
     model.updateDataMask(MeshModel::MM_VERTQUALITY);
     if (colors != Colors::none) {
-      color_vertices(mesh, statuses, subject, colors, decimal(given, "percentile"));
+      color_vertices(mesh, statuses, subject, colors, percentile);
       model.updateDataMask(MeshModel::MM_VERTCOLOR);
     }
   }
@@ -288,7 +288,7 @@ void FilterUmbilic::segmentation(MeshModel &model, const RichParameterList &give
       umbilic::region_options options;
       options.tolerance = decimal(given, "tolerance");
       options.smallest_share = decimal(given, "smallestShare");
-      options.smallest_faces = static_cast<std::size_t>(integer(given, "smallestFaces"));
+      options.smallest_faces = count(given, "smallestFaces");
       options.creases = &creases;
       options.curvature = &method;
       cut(options);

@@ -46,31 +46,39 @@ const Value &value(const RichParameterList &given, const char *name) {
   return given.getParameterByName(name).value();
 }
 
-[[noreturn]] void refuse(const char *name, const Value &found, const char *expected) {
-  throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is of type " + found.typeName().toStdString() + ", expected " +
-                              expected);
+[[noreturn]] void refuse(const char *name, const std::string &found, const std::string &expected) {
+  throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is " + found + ", expected " + expected);
 }
 
-// What is negative is for the library to refuse, as a number that is too large.
-std::uint32_t count(const RichParameterList &given, const char *name) { return static_cast<std::uint32_t>(integer(given, name)); }
+[[noreturn]] void refuse_type(const char *name, const Value &found, const std::string &expected) {
+  refuse(name, "of type " + found.typeName().toStdString(), expected);
+}
 
 }  // namespace
 
-// Values end the process if they are asked for what they are not.
-int integer(const RichParameterList &given, const char *name) {
+// Values end the process if they are asked for what they are not. (Numbers of lists are integers to MeshLab, percentages numbers.)
+std::uint32_t count(const RichParameterList &given, const char *name) {
   const Value &found = value(given, name);
-  if (found.isEnum()) return found.getEnum();
-  if (found.isInt()) return found.getInt();
-  refuse(name, found, "Enum or Int");
+  if (!found.isInt()) refuse_type(name, found, "Enum or Int");
+  if (found.getInt() < 0) refuse(name, std::to_string(found.getInt()), "0 or more");
+  return static_cast<std::uint32_t>(found.getInt());
 }
 
 double decimal(const RichParameterList &given, const char *name) {
   const Value &found = value(given, name);
-  if (found.isFloat()) return static_cast<double>(found.getFloat());
-  if (found.isAbsPerc()) return static_cast<double>(found.getAbsPerc());
-  if (found.isDynamicFloat()) return static_cast<double>(found.getDynamicFloat());
-  refuse(name, found, "Float");
+  if (!found.isFloat()) refuse_type(name, found, "Float");
+  return static_cast<double>(found.getFloat());
 }
+
+double percentage(const RichParameterList &given, const char *name) {
+  const double found = decimal(given, name);
+  if (!(found >= 0.0 && found <= 100.0)) refuse(name, std::to_string(found), "0 to 100");
+  return found;
+}
+
+namespace detail {
+void refuse_beyond(const char *name, std::uint32_t found, std::uint32_t last) { refuse(name, std::to_string(found), "0 to " + std::to_string(last)); }
+}  // namespace detail
 
 void add_normal_parameters(RichParameterList &parameters) {
   parameters.addParam(RichEnum("weight", UMB_WEIGHT_CONFORMAL, weights(), "Weight",
@@ -114,11 +122,10 @@ umbilic::curvature_options method_of(const RichParameterList &given, const CMesh
   options.radius = decimal(given, "radius");
   options.degree = count(given, "degree");
   options.section = count(given, "section");
-  const int normals = integer(given, "normals");
-  if (normals == weights().size()) {
+  options.weight = count(given, "normals");
+  if (options.weight == static_cast<umb_weight>(weights().size())) {
+    options.weight = UMB_WEIGHT_CONFORMAL;
     options.normals = given_normals_of(mesh);
-  } else {
-    options.weight = static_cast<umb_weight>(normals);
   }
   return options;
 }

@@ -22,20 +22,25 @@ enum class Colors { diverging, ramp, none };
 /** What the list "by" has. */
 enum class Segments { features, watershed, regions };
 
-/** A number of a list, or one without fraction. Throws if there is none of that name, or another kind of value. */
-int integer(const RichParameterList &given, const char *name);
+// These throw if there is no parameter of that name, or one of another kind or beyond its range.
 
-/** A number. Throws likewise. */
+/** A number of a list, or one without fraction, from 0 on. */
+std::uint32_t count(const RichParameterList &given, const char *name);
+
 double decimal(const RichParameterList &given, const char *name);
+
+/** From 0 to 100. */
+double percentage(const RichParameterList &given, const char *name);
+
+namespace detail {
+[[noreturn]] void refuse_beyond(const char *name, std::uint32_t found, std::uint32_t last);
+}
 
 /** A number of a list, as what it stands for. */
 template <class List>
 List choice(const RichParameterList &given, const char *name, List last) {
-  const int number = integer(given, name);
-  if (number < 0 || number > static_cast<int>(last)) {
-    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is " + std::to_string(number) + ", expected 0 to " +
-                                std::to_string(static_cast<int>(last)));
-  }
+  const std::uint32_t number = count(given, name);
+  if (number > static_cast<std::uint32_t>(last)) detail::refuse_beyond(name, number, static_cast<std::uint32_t>(last));
   return static_cast<List>(number);
 }
 

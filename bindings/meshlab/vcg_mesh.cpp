@@ -51,27 +51,20 @@ std::vector<Number> faux_mates(const CMeshO &mesh) {
   return mates;
 }
 
-/** Adds the polygon of a triangle; marks all its triangles with its number. */
+/** Adds polygons, and marks all their triangles with their numbers. */
 class polygon_joiner {
  public:
   polygon_joiner(const CMeshO &mesh, mesh_faces &into) : mesh_(mesh), mates_(faux_mates(mesh)), into_(into) {
     into_.face_of.assign(mesh.face.size(), NONE);
   }
 
+  /** That of a triangle, unless it has been added. */
   void add(std::size_t triangle) {
     if (into_.face_of[triangle] != NONE) return;
     gather(triangle);
-    if (is_disk()) {
-      add_outline();
-      for (const Number part : parts_) into_.face_of[part] = number_;
-      number_++;
-    } else {
-      for (const Number part : parts_) {
-        for (std::size_t k = 0; k < 3; k++) into_.polygons.add_corner(vertex(mesh_, 3 * std::size_t{part} + k));
-        into_.polygons.end_face();
-        into_.face_of[part] = number_++;
-      }
-    }
+    if (!is_disk()) take_apart(triangle);
+    add_outline();
+    number_++;
   }
 
  private:
@@ -95,6 +88,16 @@ class polygon_joiner {
   /** Whether they hang together as a tree: else there is a vertex or a hole amid them. Each joint was counted from both sides. */
   bool is_disk() const { return joints_ == 2 * (parts_.size() - 1); }
 
+  /** Leaves each a triangle, those after this one for later. */
+  void take_apart(std::size_t triangle) {
+    for (const Number part : parts_) {
+      into_.face_of[part] = NONE;
+      for (std::size_t k = 0; k < 3; k++) mates_[3 * std::size_t{part} + k] = NONE;
+    }
+    parts_.assign(1, static_cast<Number>(triangle));
+    into_.face_of[triangle] = number_;
+  }
+
   void add_outline() {
     std::size_t part = 0, start = 3 * std::size_t{parts_[0]};
     while (mates_[start] != NONE) start = start % 3 == 2 ? 3 * std::size_t{parts_[++part]} : start + 1;
@@ -108,7 +111,7 @@ class polygon_joiner {
   }
 
   const CMeshO &mesh_;
-  const std::vector<Number> mates_;
+  std::vector<Number> mates_;
   mesh_faces &into_;
   std::vector<Number> parts_;
   std::size_t joints_ = 0;
