@@ -81,6 +81,15 @@ void ask_for_quality(umbilic::curvature_outputs &into, Subject subject, CMeshO &
   }
 }
 
+void clear_directions(CMeshO &mesh) {
+  for (CVertexO &vertex : mesh.vert) vertex.PD1() = vertex.PD2() = Point3m(0, 0, 0);
+}
+
+void clear_curvatures(CMeshO &mesh) {
+  for (CVertexO &vertex : mesh.vert) vertex.K1() = vertex.K2() = 0;
+  clear_directions(mesh);
+}
+
 bool has(umbilic::quantities some, umbilic::quantities one) { return (some & one) != umbilic::quantities{}; }
 
 }  // namespace
@@ -220,13 +229,10 @@ void FilterUmbilic::curvature(MeshModel &model, const RichParameterList &given, 
 
   umbilic::curvature_outputs into;
   if (has_principal) {
+    // What is enabled starts as anything at all.
     const bool is_new = !mesh.vert.IsCurvatureDirEnabled();
     model.updateDataMask(MeshModel::MM_VERTCURVDIR);
-    // What is enabled starts as anything at all; what a method does not have is 0, not what another one left.
-    for (CVertexO &vertex : mesh.vert) {
-      if (is_new) vertex.K1() = vertex.K2() = 0;
-      if (is_new || !has_directions) vertex.PD1() = vertex.PD2() = Point3m(0, 0, 0);
-    }
+    if (is_new) clear_curvatures(mesh);
     const principal_curvatures principal(mesh);
     into.k1 = principal.k1;
     into.k2 = principal.k2;
@@ -243,6 +249,8 @@ void FilterUmbilic::curvature(MeshModel &model, const RichParameterList &given, 
   umbilic::curvatures(rings, positions_of(mesh), into, options);
   const double library_ms = watch.lap();
 
+  // Not what another method left.
+  if (has_principal && !has_directions) clear_directions(mesh);
   if (subject == Subject::k1 || subject == Subject::k2) {
     for (CVertexO &vertex : mesh.vert) vertex.Q() = static_cast<float>(subject == Subject::k1 ? vertex.K1() : vertex.K2());
   }

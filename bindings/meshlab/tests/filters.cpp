@@ -287,6 +287,20 @@ void mistakes_are_answered(Plugin &plugin) {
   }
 }
 
+void directions_are_those_of_the_last_method(Plugin &plugin) {
+  Layer layer(torus(12, 8, true), 0);
+  RichParameterList given = plugin.parameters(CURVATURE, layer.document);
+  CHECK(plugin.apply(CURVATURE, layer.document, given), "%s", plugin.message().c_str());
+  const auto has_directions = [](CVertexO &vertex) { return vertex.PD1().Norm() > 0.9f && vertex.PD2().Norm() > 0.9f; };
+  given.setValue("method", EnumValue(UMB_CURVATURE_MEYER));
+  given.setValue("degree", IntValue(3));
+  CHECK(!plugin.apply(CURVATURE, layer.document, given), "applied");
+  CHECK(std::all_of(layer.mesh().vert.begin(), layer.mesh().vert.end(), has_directions), "what was refused has taken the directions");
+  given.setValue("degree", IntValue(0));
+  CHECK(plugin.apply(CURVATURE, layer.document, given), "%s", plugin.message().c_str());
+  CHECK(std::none_of(layer.mesh().vert.begin(), layer.mesh().vert.end(), has_directions), "directions of another method are left");
+}
+
 void degenerate_faces_do_no_harm(Plugin &plugin) {
   Layer layer;
   add_vertices(layer.mesh(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}});
@@ -428,6 +442,7 @@ int main(int argc, char **argv) {
   every_way_of_cutting(plugin);
   the_matrix_is_not_applied(plugin);
   mistakes_are_answered(plugin);
+  directions_are_those_of_the_last_method(plugin);
   degenerate_faces_do_no_harm(plugin);
   gaps_are_closed(plugin);
   progress_and_cancelling(plugin);

@@ -25,14 +25,14 @@ quietly() {
 quietly "$built/polygons"
 quietly "$built/filters" "$plugin"
 
-# MeshLab looks for plugins beside its own program: a copy of it, with the plugin, leaves the system's alone.
-prefix=target/meshlab/prefix
-rm -rf $prefix target/meshlab/out
-mkdir -p "$prefix/bin" "$prefix/${installed#/usr/}" target/meshlab/out
-cp /usr/bin/meshlabserver $prefix/bin/
-cp -R "$installed/." "$prefix/${installed#/usr/}"
-cp "$plugin" "$prefix/${installed#/usr/}/plugins/"
+# MeshLab looks for plugins beside its own program: a copy of it, into which the plugin is installed, leaves the system's alone.
+copy=$PWD/target/meshlab/copy
+rm -rf "$copy" target/meshlab/out
+mkdir -p "$copy/usr/bin" "$copy$installed" target/meshlab/out
+cp /usr/bin/meshlabserver "$copy/usr/bin/"
+cp -R "$installed/." "$copy$installed/"
+DESTDIR=$copy cmake --install "$built" --strip >/dev/null
 xvfb-run -a "$python" -B bindings/meshlab/tests/server.py target/release/libumbilic.so target/release/umbilic "$meshes" \
-  $prefix/bin/meshlabserver target/meshlab/out
+  "$copy/usr/bin/meshlabserver" target/meshlab/out
 
 quietly "$built/timing" "$plugin" "$meshes/bunny00.off"
