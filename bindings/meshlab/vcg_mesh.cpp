@@ -20,13 +20,6 @@ std::size_t vertex(const CMeshO &mesh, std::size_t halfedge) {
 
 std::size_t next(std::size_t halfedge) { return halfedge % 3 == 2 ? halfedge - 2 : halfedge + 1; }
 
-bool has_faux_edges(const CMeshO &mesh) {
-  for (const CFaceO &face : mesh.face) {
-    if (face.IsAnyF()) return true;
-  }
-  return false;
-}
-
 /** For each halfedge the one on the other side of its faux edge, or `NONE`. Of several, those that come first in the mesh are joined. */
 std::vector<Number> faux_mates(const CMeshO &mesh) {
   if (mesh.face.size() > NONE / 3) throw std::length_error("more triangles than tables of 32 bits can hold");
@@ -118,6 +111,14 @@ class polygon_joiner {
   Number number_ = 0;
 };
 
+mesh_faces joined(const CMeshO &mesh) {
+  mesh_faces found;
+  found.polygons.reserve(3 * mesh.face.size());
+  polygon_joiner joiner(mesh, found);
+  for (std::size_t triangle = 0; triangle < mesh.face.size(); triangle++) joiner.add(triangle);
+  return found;
+}
+
 }  // namespace
 
 void compact(CMeshO &mesh) { vcg::tri::Allocator<CMeshO>::CompactEveryVector(mesh); }
@@ -125,14 +126,10 @@ void compact(CMeshO &mesh) { vcg::tri::Allocator<CMeshO>::CompactEveryVector(mes
 mesh_faces faces_of(const CMeshO &mesh) {
   mesh_faces found;
   found.polygons.reserve(3 * mesh.face.size());
-  if (has_faux_edges(mesh)) {
-    polygon_joiner joiner(mesh, found);
-    for (std::size_t triangle = 0; triangle < mesh.face.size(); triangle++) joiner.add(triangle);
-  } else {
-    for (std::size_t halfedge = 0; halfedge < 3 * mesh.face.size(); halfedge++) {
-      found.polygons.add_corner(vertex(mesh, halfedge));
-      if (halfedge % 3 == 2) found.polygons.end_face();
-    }
+  for (const CFaceO &face : mesh.face) {
+    if (face.IsAnyF()) return joined(mesh);
+    for (int k = 0; k < 3; k++) found.polygons.add_corner(vcg::tri::Index(mesh, face.cV(k)));
+    found.polygons.end_face();
   }
   return found;
 }

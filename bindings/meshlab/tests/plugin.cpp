@@ -3,10 +3,11 @@
 // Loads and runs the plugin for its tests.
 #include "plugin.h"
 
+#include <QFileInfo>
 #include <QPluginLoader>
 
 Plugin::Plugin(const QString &file) {
-  QPluginLoader loader(file);
+  QPluginLoader loader(QFileInfo(file).absoluteFilePath());
   filters_ = qobject_cast<MeshFilterInterface *>(loader.instance());
   if (filters_ == nullptr) qFatal("%s: %s", qUtf8Printable(file), qUtf8Printable(loader.errorString()));
   filters_->setLog(&log_);

@@ -119,7 +119,7 @@ def read_off(path):
 def torus(around=24, across=16):
     """Hexagons of two quads, quads, and triangles."""
     u, v = numpy.meshgrid(numpy.arange(around) * 2 * numpy.pi / around, numpy.arange(across) * 2 * numpy.pi / across, indexing="ij")
-    r = 0.4 + 0.05 * numpy.sin(5 * u) * numpy.cos(3 * v)
+    r = 0.4 + 0.05 * numpy.sin(5 * u) * numpy.cos(3 * v) + 0.02 * numpy.sin(u + 0.5) * numpy.cos(v + 1)
     positions = numpy.stack([(1 + r * numpy.cos(v)) * numpy.cos(u), (1 + r * numpy.cos(v)) * numpy.sin(u), r * numpy.sin(v)], 2)
 
     def at(i, j):
@@ -217,6 +217,17 @@ def polygons(path, positions, faces):
     check(f" {len(faces)} faces of " in said, path, len(faces), "faces, but", said)
 
 
+def labels_of_polygons(path, faces):
+    """MeshLab cuts a polygon into triangles that follow each other: each has the polygon's label."""
+    for by, options in enumerate([("features", "--crease-angle", "10"), ("watershed", "--depth", "0.125"), ("regions", "--crease-angle", "10")]):
+        found = apply(path, script("segmentation", by=by, creaseAngle=10, depth=0.125), "fq")
+        out = directory / "labels.ply"
+        subprocess.run([program, "segment", path, "-o", out, "--ascii", "--by", *options], check=True, capture_output=True)
+        rows = [line.split() for line in out.read_text().splitlines()[-len(faces) :]]
+        expected = [int(row[-1]) for row, face in zip(rows, faces) for _ in face[2:]]
+        check(len(set(expected)) > 1 and numpy.array_equal(found["face"]["quality"], expected), path, "labels by", options[0])
+
+
 def deleted_elements():
     """Filters before may leave gaps, which files do not have."""
     positions, faces = torus()
@@ -267,7 +278,9 @@ for name in ("bunny00.off", "fandisk.off", "mesh_with_border.off", "cube-ouvert.
     triangles(name)
 # Not OBJ: Debian's MeshLab ends itself at faces of more than three corners there.
 for suffix in (".ply", ".off"):
-    polygons(write((directory / "torus").with_suffix(suffix), *torus()), *torus())
+    path = write((directory / "torus").with_suffix(suffix), *torus())
+    polygons(path, *torus())
+    labels_of_polygons(path, torus()[1])
 for name in ("mpi.off", "double-torus-example.off"):
     positions, faces = read_off(meshes / name)
     polygons(meshes / name, positions.astype(numpy.float32), faces)

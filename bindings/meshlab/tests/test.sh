@@ -20,7 +20,7 @@ if [ "$exported" != "qt_plugin_instance qt_plugin_query_metadata" ]; then
 fi
 
 quietly() {
-  LD_LIBRARY_PATH=$installed QT_QPA_PLATFORM=offscreen "$@" 2>"$built/said" || { grep -v '^LOG' "$built/said" >&2; return 1; }
+  QT_QPA_PLATFORM=offscreen "$@" 2>"$built/said" || { grep -v '^LOG' "$built/said" >&2; return 1; }
 }
 quietly "$built/polygons"
 quietly "$built/filters" "$plugin"
