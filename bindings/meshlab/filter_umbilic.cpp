@@ -39,16 +39,16 @@ double quantile(std::vector<double> &some, double part) {
 }
 
 void color_vertices(CMeshO &mesh, const std::vector<std::uint8_t> &statuses, Subject subject, Colors colors, double percentile) {
-  const bool signless = colors == Colors::diverging;
+  const bool about_zero = colors == Colors::diverging;
   std::vector<double> values;
   for (std::size_t v = 0; v < mesh.vert.size(); v++) {
     const double value = static_cast<double>(mesh.vert[v].cQ());
-    if (has_result(statuses[v])) values.push_back(signless ? std::abs(value) : value);
+    if (has_result(statuses[v])) values.push_back(about_zero ? std::abs(value) : value);
   }
   double low = -1.0, high = 1.0;
   if (subject != Subject::shape_index) {
     high = quantile(values, percentile / 100.0);
-    if (signless) {
+    if (about_zero) {
       // Where most or all is flat there still is a scale.
       if (high == 0.0) high = quantile(values, 1.0);
       if (high == 0.0) high = 1.0;
@@ -60,7 +60,7 @@ void color_vertices(CMeshO &mesh, const std::vector<std::uint8_t> &statuses, Sub
     vcg::Color4b &color = mesh.vert[v].C();
     if (!has_result(statuses[v])) {
       color = no_color();
-    } else if (signless) {
+    } else if (about_zero) {
       color = diverging_color(static_cast<double>(mesh.vert[v].cQ()) / high);
     } else {
       color.SetColorRamp(static_cast<float>(low), static_cast<float>(high), mesh.vert[v].cQ());

@@ -57,11 +57,14 @@ const Value &value(const RichParameterList &given, const char *name) {
 }  // namespace
 
 // Values end the process if they are asked for what they are not. (Numbers of lists are integers to MeshLab, percentages numbers.)
-std::uint32_t count(const RichParameterList &given, const char *name) {
+std::uint32_t count(const RichParameterList &given, const char *name, std::uint32_t last) {
   const Value &found = value(given, name);
   if (!found.isInt()) refuse_type(name, found, "Enum or Int");
-  if (found.getInt() < 0) refuse(name, std::to_string(found.getInt()), "0 or more");
-  return static_cast<std::uint32_t>(found.getInt());
+  const int number = found.getInt();
+  const bool is_within = number >= 0 && static_cast<std::uint32_t>(number) <= last;
+  const bool has_last = last < std::numeric_limits<std::uint32_t>::max();
+  if (!is_within) refuse(name, std::to_string(number), has_last ? "0 to " + std::to_string(last) : "0 or more");
+  return static_cast<std::uint32_t>(number);
 }
 
 double decimal(const RichParameterList &given, const char *name) {
@@ -75,10 +78,6 @@ double percentage(const RichParameterList &given, const char *name) {
   if (!(found >= 0.0 && found <= 100.0)) refuse(name, std::to_string(found), "0 to 100");
   return found;
 }
-
-namespace detail {
-void refuse_beyond(const char *name, std::uint32_t found, std::uint32_t last) { refuse(name, std::to_string(found), "0 to " + std::to_string(last)); }
-}  // namespace detail
 
 void add_normal_parameters(RichParameterList &parameters) {
   parameters.addParam(RichEnum("weight", UMB_WEIGHT_CONFORMAL, weights(), "Weight",

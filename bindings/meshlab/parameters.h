@@ -24,25 +24,19 @@ enum class Segments { features, watershed, regions };
 
 // These throw if there is no parameter of that name, or one of another kind or beyond its range.
 
-/** A number of a list, or one without fraction, from 0 on. */
-std::uint32_t count(const RichParameterList &given, const char *name);
+/** A number of a list, or one without fraction, from 0 to the last. */
+std::uint32_t count(const RichParameterList &given, const char *name, std::uint32_t last = std::numeric_limits<std::uint32_t>::max());
+
+/** A number of a list, as what it stands for. */
+template <class List>
+List choice(const RichParameterList &given, const char *name, List last) {
+  return static_cast<List>(count(given, name, static_cast<std::uint32_t>(last)));
+}
 
 double decimal(const RichParameterList &given, const char *name);
 
 /** From 0 to 100. */
 double percentage(const RichParameterList &given, const char *name);
-
-namespace detail {
-[[noreturn]] void refuse_beyond(const char *name, std::uint32_t found, std::uint32_t last);
-}
-
-/** A number of a list, as what it stands for. */
-template <class List>
-List choice(const RichParameterList &given, const char *name, List last) {
-  const std::uint32_t number = count(given, name);
-  if (number > static_cast<std::uint32_t>(last)) detail::refuse_beyond(name, number, static_cast<std::uint32_t>(last));
-  return static_cast<List>(number);
-}
 
 void add_normal_parameters(RichParameterList &parameters);
 umbilic::normal_options normal_options_of(const RichParameterList &given);

@@ -26,7 +26,7 @@ void compact(CMeshO &mesh);
 
 /**
  * Polygons, each in the order and orientation of its first triangle. Triangles are joined across edges that both of them mark as faux and run
- * through in opposite directions; where that would swallow a vertex or leave a hole, they stay triangles.
+ * through in opposite directions, those that come first if there are several; where that would swallow a vertex or leave a hole, they stay triangles.
  */
 mesh_faces faces_of(const CMeshO &mesh);
 

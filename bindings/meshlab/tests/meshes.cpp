@@ -141,9 +141,10 @@ void add_vertices(CMeshO &mesh, const std::vector<std::array<float, 3>> &positio
 }
 
 void add_triangle(CMeshO &mesh, std::array<int, 3> corners, unsigned faux) {
-  CFaceO &face = *vcg::tri::Allocator<CMeshO>::AddFace(mesh, static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
-                                                       static_cast<std::size_t>(corners[2]));
+  // MeshLab's readers make such triangles as well, its own way of adding one refuses them: those that name a vertex twice.
+  CFaceO &face = *vcg::tri::Allocator<CMeshO>::AddFaces(mesh, 1);
   for (int k = 0; k < 3; k++) {
+    face.V(k) = &mesh.vert[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
     if (faux >> k & 1U) face.SetF(k);
   }
 }

@@ -48,6 +48,21 @@ void polygons_come_back(const PolygonMesh &from, Order order, unsigned seed) {
 
 const std::vector<std::array<float, 3>> NINE = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
 
+void many_edges_at_one_vertex(int corners) {
+  PolygonMesh one;
+  one.positions.resize(static_cast<std::size_t>(corners));
+  CMeshO mesh;
+  add_vertices(mesh, one.positions);
+  const int triangles = corners - 2;
+  for (int i = 0; i < triangles; i++) {
+    // All even triangles of a fan before the odd ones.
+    const int place = 2 * i < triangles ? 2 * i : 2 * (i - (triangles + 1) / 2) + 1;
+    add_triangle(mesh, {0, place + 1, place + 2}, (place > 0 ? 1U : 0U) | (place < triangles - 1 ? 4U : 0U));
+  }
+  const std::vector<Polygon> loops = loops_of(faces_of(mesh));
+  CHECK(loops.size() == 1 && loops[0].size() == static_cast<std::size_t>(corners), "%zu faces", loops.size());
+}
+
 struct Part {
   std::array<int, 3> corners;
   unsigned faux;
@@ -75,6 +90,8 @@ int main() {
       polygons_come_back(one, order, seed);
     }
   }
+  // At one vertex, and in an order that finds nothing soon: in time that is not by the square.
+  many_edges_at_one_vertex(300000);
   expect("nothing", {}, {});
   expect("a quad", {{{0, 1, 4}, 4}, {{0, 4, 3}, 1}}, {{0, 1, 4, 3}});
   expect("a faux edge on the border", {{{0, 1, 4}, 1}}, {{0, 1, 4}});
