@@ -276,7 +276,7 @@ def mistakes():
 filters_are_listed()
 for name in ("bunny00.off", "fandisk.off", "mesh_with_border.off", "cube-ouvert.off"):
     triangles(name)
-# Not OBJ: Debian's MeshLab ends itself at faces of more than three corners there.
+# Not OBJ: Debian's meshlabserver ends itself at many such files, whatever plugins it has.
 for suffix in (".ply", ".off"):
     path = write((directory / "torus").with_suffix(suffix), *torus())
     polygons(path, *torus())
