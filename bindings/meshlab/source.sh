@@ -18,7 +18,9 @@ source=$directory/source
 if [ ! -d "$source" ]; then
   apt=$directory/apt
   mkdir -p "$apt/lists/partial" "$apt/cache"
-  apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 'Origin: Debian' | sort -u > "$apt/sources.list"
+  # shellcheck disable=SC2016 # apt fills these in
+  apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' \
+    'Created-By: Packages' 'Origin: Debian' | sort -u > "$apt/sources.list"
   if [ ! -s "$apt/sources.list" ]; then
     echo "apt knows no packages of Debian: run \`apt-get update\` first" >&2
     exit 1
