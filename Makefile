@@ -19,14 +19,17 @@ VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
-.PHONY: help demo test test-all test-rust test-c test-cpp test-examples test-peers test-ffi time-ffi ffi-packages lint abi sanitize \
-  fuzz fuzz-build bench bench-programs bench-instructions bench-hosts accuracy paper pictures header packages clean FORCE
+.PHONY: help demo build test test-all test-rust test-c test-cpp test-examples test-peers test-packages test-python test-ffi time-ffi \
+  ffi-packages meshlab-plugin test-meshlab lint abi sanitize fuzz fuzz-build bench bench-programs bench-instructions bench-hosts \
+  accuracy paper pictures header install uninstall deb dist dist-check packages clean FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
 	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
+	@echo "make meshlab-plugin       umbilic's filters for Debian's MeshLab: bindings/meshlab/README.md"
+	@echo "make test-meshlab         these filters against the library, in process and in meshlabserver"
 	@echo "make abi                  the binary interface against that of version 0.1.0"
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
@@ -156,6 +159,31 @@ time-ffi: $(LIBRARY) ffi-packages
 
 ffi-packages:
 	@.ci/packages gcc python3 $(foreach language,$(LANGUAGES),$(FFI_$(language)))
+
+# ---- MeshLab ----
+
+MESHLAB := target/meshlab
+MESHLAB_TESTS := OFF
+# meshlab is what loads the plugin, dpkg-dev unpacks its source.
+MESHLAB_PACKAGES := g++ cmake dpkg-dev meshlab qtbase5-dev libqt5opengl5-dev libglew-dev libeigen3-dev
+
+# The plugin, for the MeshLab of Debian: bindings/meshlab/README.md says how it gets there.
+meshlab-plugin: $(LIBRARY)
+	@.ci/packages $(MESHLAB_PACKAGES)
+	cmake -S bindings/meshlab -B $(MESHLAB)/build -DMESHLAB_SOURCE="$$(bindings/meshlab/source.sh $(MESHLAB))" \
+	  -DUMBILIC_MESHLAB_TESTS=$(MESHLAB_TESTS)
+	cmake --build $(MESHLAB)/build
+
+# Its filters in process, and in an unmodified meshlabserver.
+test-meshlab: MESHLAB_TESTS := ON
+test-meshlab: meshlab-plugin $(MESHES) $(MESHLAB)/venv/done
+	@.ci/packages binutils xvfb xauth
+	bindings/meshlab/tests/test.sh $(MESHLAB)/venv/bin/python $(MESHES)
+
+$(MESHLAB)/venv/done: bindings/meshlab/tests/requirements.txt | packages
+	$(PYTHON) -m venv $(MESHLAB)/venv
+	$(MESHLAB)/venv/bin/pip install --quiet --disable-pip-version-check -r bindings/meshlab/tests/requirements.txt
+	touch $@
 
 # ---- the binary interface ----
 
