@@ -215,14 +215,14 @@ dist:
 	mkdir -p target/dist
 	git archive --prefix=$(NAME)/ HEAD | tar --extract --directory=target/dist
 	mkdir target/dist/$(NAME)/.cargo
-	cd target/dist/$(NAME) && $(CARGO) vendor --quiet --locked --sync fuzz/Cargo.toml vendor > .cargo/config.toml
-	tar --create --directory=target/dist --format=gnu --sort=name --mtime="$$(git log -1 --format=@%ct)" \
-	  --owner=0 --group=0 --numeric-owner --mode=u+rw,go+r-w,a+X $(NAME) | gzip --no-name > target/dist/$(NAME).tar.gz
+	cd target/dist/$(NAME) && $(CARGO) vendor --locked --sync fuzz/Cargo.toml vendor > .cargo/config.toml
+	tar --create --file=target/dist/$(NAME).tar.gz --use-compress-program="gzip --no-name" --directory=target/dist --format=gnu \
+	  --sort=name --mtime="$$(git log -1 --format=@%ct)" --owner=0 --group=0 --numeric-owner --mode=u+rw,go+r-w,a+X $(NAME)
 	rm -r target/dist/$(NAME)
 
-# The archive, built as by someone who has nothing else: as long as any first build.
+# The archive, built and installed by someone who has nothing else: as long as any first build.
 dist-check: dist
-	DIST=target/dist/$(NAME).tar.gz tests/consumers/archive.sh build
+	tests/consumers/archive.sh build
 
 # ---- Debian packages of umbilic ----
 
@@ -246,6 +246,7 @@ deb: | target/release/umbilic $(PROGRAM_DATA)/done
 test-packages: $(LIBRARY)
 	@.ci/packages gcc g++ cmake pkg-config man-db bash-completion
 	CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
+	tests/consumers/archive.sh
 
 # ---- the binary interface ----
 
