@@ -44,7 +44,8 @@ help:
 
 # ---- the library, and the program over it ----
 
-build: $(LIBRARY) $(PROGRAM_DATA)/done
+build: $(LIBRARY)
+	@$(MAKE) --no-print-directory $(PROGRAM_DATA)/done
 
 $(LIBRARY): FORCE
 	$(CARGO) build --release --locked --features cli
@@ -221,7 +222,7 @@ dist:
 	rm -r target/dist/$(NAME)
 
 # The archive, built and installed by someone who has nothing else: as long as any first build.
-dist-check: dist
+dist-check:
 	tests/consumers/archive.sh build
 
 # ---- Debian packages of umbilic ----
@@ -232,7 +233,7 @@ export DEBEMAIL ?= umbilic@localhost
 # The project has no mail address, and nobody has asked Debian for it.
 LINTIAN := lintian --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog,initial-upload-closes-no-bugs
 
-# Of what is built. debian/rules finds this tree by SOURCE.
+# Of what is built.
 deb: | target/release/umbilic $(PROGRAM_DATA)/done
 	@.ci/packages dpkg-dev debhelper lintian
 	rm -rf $(DEBIAN)

@@ -14,7 +14,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 for time in first second; do
-  ${MAKE:-make} --silent --no-print-directory dist
+  ${MAKE:-make} dist > "$scratch/dist.log" 2>&1 || { cat "$scratch/dist.log"; exit 1; }
   sha256sum "$archive" > "$scratch/$time"
 done
 cmp "$scratch/first" "$scratch/second"

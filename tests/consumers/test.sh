@@ -120,3 +120,9 @@ dpkg-deb --field "$scratch"/packages/libumbilic0_*.deb Depends | grep -q 'libc6 
 dpkg-deb --info "$scratch"/packages/libumbilic0_*.deb shlibs | grep -qF "libumbilic 0 libumbilic0 (>= $version)" || fail "shlibs"
 dpkg-deb --info "$scratch"/packages/libumbilic0_*.deb triggers | grep -q '^activate-noawait ldconfig' || fail "no ldconfig"
 consumers debian "$scratch/unpacked/usr" "$scratch/unpacked/usr/lib/$architecture"
+
+# The examples come along, and find the library by themselves.
+examples=$scratch/unpacked/usr/share/doc/libumbilic-dev/examples
+cmake -S "$examples" -B "$scratch/examples" -DCMAKE_PREFIX_PATH="$scratch/unpacked/usr" > "$scratch/examples.log"
+cmake --build "$scratch/examples" --target normals > "$scratch/examples.log"
+LD_LIBRARY_PATH=$scratch/unpacked/usr/lib/$architecture "$scratch/examples/normals" > "$scratch/examples.log"
