@@ -407,7 +407,7 @@ fn shells_complete_commands_options_and_values() {
         for word in commands(&folder) {
             assert!(script.contains(&word), "{shell}: {word}");
         }
-        for word in ["crease-angle", "adaptive-jet", "torus"] {
+        for word in ["crease-angle", "adaptive-jet"] {
             assert!(script.contains(word), "{shell}: {word}");
         }
     }
