@@ -27,7 +27,7 @@ quiet_make() { ${MAKE:-make} --silent --no-print-directory "$@"; }
 consumers() {
   name=$1 prefix=$2 library=$3
   cp -r "$here" "$scratch/$name"
-  PKG_CONFIG_LIBDIR=$library/pkgconfig quiet_make -C "$scratch/$name/pkg-config" VERSION="$version" all
+  PKG_CONFIG_LIBDIR=$library/pkgconfig quiet_make -C "$scratch/$name/pkg-config" all
   cmake -S "$scratch/$name/cmake" -B "$scratch/$name/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED="$version" \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$scratch/$name/cmake.log"
   cmake --build "$scratch/$name/cmake" > "$scratch/$name/cmake.log"
