@@ -173,9 +173,11 @@ INSTALLED := \
   644:$(PROGRAM_DATA)/umbilic.fish:$(FISHCOMPLETIONDIR)/umbilic.fish
 LIBRARY_LINKS := $(LIBDIR)/libumbilic.so.$(ABI) $(LIBDIR)/libumbilic.so
 
-# The way from one directory to another, so that what is installed can be moved as a whole.
+# The way from one directory to another: so what is installed can be moved as a whole. Not below /usr, which pkg-config has to recognise
+# in order to leave out directories that compilers search anyway.
 way = $(shell realpath -ms --relative-to="$(1)" "$(2)")
-fill_in = sed -i -e 's|@VERSION@|$(VERSION)|; s|@ABI@|$(ABI)|; s|@PREFIX@|$(call way,$(1),$(PREFIX))|' \
+pkgconfig_prefix = $(if $(filter /usr,$(PREFIX)),/usr,$${pcfiledir}/$(call way,$(PKGCONFIGDIR),$(PREFIX)))
+fill_in = sed -i -e 's|@VERSION@|$(VERSION)|; s|@ABI@|$(ABI)|; s|@PREFIX@|$(1)|' \
   -e 's|@LIBDIR@|$(call way,$(PREFIX),$(LIBDIR))|; s|@INCLUDEDIR@|$(call way,$(PREFIX),$(INCLUDEDIR))|'
 
 # What is built is installed as it is, so that root needs no cargo.
@@ -183,8 +185,8 @@ install: | target/release/umbilic $(PROGRAM_DATA)/done
 	@set -e; for entry in $(INSTALLED); do \
 	  IFS=:; set -- $$entry; echo "install $(DESTDIR)$$3"; install -D -m "$$1" "$$2" "$(DESTDIR)$$3"; \
 	done
-	$(call fill_in,$(PKGCONFIGDIR)) "$(DESTDIR)$(PKGCONFIGDIR)/umbilic.pc"
-	$(call fill_in,$(CMAKEDIR)) "$(DESTDIR)$(CMAKEDIR)/umbilicConfig.cmake" "$(DESTDIR)$(CMAKEDIR)/umbilicConfigVersion.cmake"
+	$(call fill_in,$(pkgconfig_prefix)) "$(DESTDIR)$(PKGCONFIGDIR)/umbilic.pc"
+	$(call fill_in,$(call way,$(CMAKEDIR),$(PREFIX))) "$(DESTDIR)$(CMAKEDIR)/umbilicConfig.cmake" "$(DESTDIR)$(CMAKEDIR)/umbilicConfigVersion.cmake"
 	for link in $(LIBRARY_LINKS); do ln -sf libumbilic.so.$(VERSION) "$(DESTDIR)$$link" || exit 1; done
 	$(if $(DESTDIR),,if [ "$$(id -u)" -eq 0 ]; then ldconfig; fi)
 

@@ -119,6 +119,10 @@ architecture=$(dpkg-architecture -q DEB_HOST_MULTIARCH)
 dpkg-deb --field "$scratch"/packages/libumbilic0_*.deb Depends | grep -q 'libc6 (>=' || fail "libumbilic0 does not depend on libc6"
 dpkg-deb --info "$scratch"/packages/libumbilic0_*.deb shlibs | grep -qF "libumbilic 0 libumbilic0 (>= $version)" || fail "shlibs"
 dpkg-deb --info "$scratch"/packages/libumbilic0_*.deb triggers | grep -q '^activate-noawait ldconfig' || fail "no ldconfig"
+# Compilers need not be told of directories below /usr; here these stand elsewhere, like the system of another machine.
+[ "$(PKG_CONFIG_LIBDIR=$scratch/unpacked/usr/lib/$architecture/pkgconfig pkg-config --cflags --libs umbilic | tr -d ' ')" = -lumbilic ] ||
+  fail "pkg-config names the system's own directories"
+export PKG_CONFIG_SYSROOT_DIR="$scratch/unpacked" PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
 consumers debian "$scratch/unpacked/usr" "$scratch/unpacked/usr/lib/$architecture"
 
 # The examples come along, and find the library by themselves.
