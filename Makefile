@@ -18,6 +18,8 @@ CMAKE_BUILD := target/examples
 VENV := target/venv
 PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
+# Manual pages and completions.
+PROGRAM_DATA := target/program
 
 .PHONY: help demo build test test-all test-rust test-c test-cpp test-examples test-peers test-packages test-python test-ffi time-ffi \
   ffi-packages meshlab-plugin test-meshlab lint abi sanitize fuzz fuzz-build bench bench-programs bench-instructions bench-hosts \
@@ -26,10 +28,13 @@ BENCH_TARGET := target/bench
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
+	@echo "make build                the library, and the program over it"
+	@echo "make install              what is built, to PREFIX=/usr/local below DESTDIR=; make uninstall takes it away"
+	@echo "make deb                  Debian packages of what is built: target/debian"
+	@echo "make dist                 a source archive that builds offline: target/dist; make dist-check builds it"
+	@echo "make meshlab-plugin       filters for Debian's MeshLab: bindings/meshlab/README.md; make test-meshlab tests them"
 	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
 	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
-	@echo "make meshlab-plugin       umbilic's filters for Debian's MeshLab: bindings/meshlab/README.md"
-	@echo "make test-meshlab         these filters against the library, in process and in meshlabserver"
 	@echo "make abi                  the binary interface against that of version 0.1.0"
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
@@ -43,6 +48,9 @@ help:
 	@echo "make header               include/umbilic.h anew from src/capi"
 
 # ---- the library, and the program over it ----
+
+build: $(LIBRARY)
+	@$(MAKE) --no-print-directory $(PROGRAM_DATA)/done
 
 $(LIBRARY): FORCE
 	$(CARGO) build --release --locked --features cli
@@ -76,14 +84,16 @@ demo: $(LIBRARY)
 
 # ---- tests ----
 
-# As many parts at once as there are processors: the library's kernels are compiled by one, for minutes.
+# As many parts at once as there are processors: the library's kernels are compiled by one, for minutes. What they need is installed before,
+# once.
 JOBS ?= $(shell nproc)
 
-test: packages
+test:
+	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES)
 	@$(MAKE) --no-print-directory --jobs=$(JOBS) --output-sync=line test-all
 	@echo "All tests passed."
 
-test-all: lint test-rust test-c test-cpp test-examples test-peers
+test-all: lint test-rust test-c test-cpp test-examples test-peers test-packages
 
 # Where the toolchain came without these two, the tests run without them.
 lint:
@@ -185,6 +195,121 @@ $(MESHLAB)/venv/done: bindings/meshlab/tests/requirements.txt | packages
 	$(MESHLAB)/venv/bin/pip install --quiet --disable-pip-version-check -r bindings/meshlab/tests/requirements.txt
 	touch $@
 
+
+# ---- installation ----
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+DATADIR ?= $(PREFIX)/share
+MANDIR ?= $(DATADIR)/man
+PKGCONFIGDIR ?= $(LIBDIR)/pkgconfig
+CMAKEDIR ?= $(LIBDIR)/cmake/umbilic
+BASHCOMPLETIONDIR ?= $(DATADIR)/bash-completion/completions
+ZSHCOMPLETIONDIR ?= $(DATADIR)/zsh/site-functions
+FISHCOMPLETIONDIR ?= $(DATADIR)/fish/vendor_completions.d
+
+VERSION := $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' Cargo.toml)
+ABI := $(shell sed -n 's/^#define UMB_ABI_VERSION //p' include/umbilic.h)
+HEADERS := $(patsubst include/%,%,$(wildcard include/*.h include/*.hpp include/umbilic/*.hpp))
+# A page for the program, and one for each command, which has a file of its own.
+MANUAL := umbilic.1 $(patsubst src/bin/umbilic/commands/%.rs,umbilic-%.1,$(filter-out %/mod.rs,$(wildcard src/bin/umbilic/commands/*.rs)))
+
+# Every file that is installed, as mode:file:place.
+INSTALLED := \
+  755:target/release/umbilic:$(BINDIR)/umbilic \
+  755:$(LIBRARY):$(LIBDIR)/libumbilic.so.$(VERSION) \
+  644:target/release/libumbilic.a:$(LIBDIR)/libumbilic.a \
+  $(foreach header,$(HEADERS),644:include/$(header):$(INCLUDEDIR)/$(header)) \
+  644:bindings/pkg-config/umbilic.pc.in:$(PKGCONFIGDIR)/umbilic.pc \
+  644:cmake/umbilicConfig.cmake.in:$(CMAKEDIR)/umbilicConfig.cmake \
+  644:cmake/umbilicConfigVersion.cmake.in:$(CMAKEDIR)/umbilicConfigVersion.cmake \
+  $(foreach page,$(MANUAL),644:$(PROGRAM_DATA)/$(page):$(MANDIR)/man1/$(page)) \
+  644:$(PROGRAM_DATA)/umbilic.bash:$(BASHCOMPLETIONDIR)/umbilic \
+  644:$(PROGRAM_DATA)/umbilic.zsh:$(ZSHCOMPLETIONDIR)/_umbilic \
+  644:$(PROGRAM_DATA)/umbilic.fish:$(FISHCOMPLETIONDIR)/umbilic.fish
+LIBRARY_LINKS := $(LIBDIR)/libumbilic.so.$(ABI) $(LIBDIR)/libumbilic.so
+
+# The way from one directory to another: so what is installed can be moved as a whole. Not below /usr, which pkg-config has to recognise
+# in order to leave out directories that compilers search anyway.
+way = $(shell realpath -ms --relative-to="$(1)" "$(2)")
+pkgconfig_prefix = $(if $(filter /usr,$(PREFIX)),/usr,$${pcfiledir}/$(call way,$(PKGCONFIGDIR),$(PREFIX)))
+fill_in = sed -i -e 's|@VERSION@|$(VERSION)|; s|@ABI@|$(ABI)|; s|@PREFIX@|$(1)|' \
+  -e 's|@LIBDIR@|$(call way,$(PREFIX),$(LIBDIR))|; s|@INCLUDEDIR@|$(call way,$(PREFIX),$(INCLUDEDIR))|'
+
+# What is built is installed as it is, so that root needs no cargo.
+install: | target/release/umbilic $(PROGRAM_DATA)/done
+	@set -e; for entry in $(INSTALLED); do \
+	  IFS=:; set -- $$entry; echo "install $(DESTDIR)$$3"; install -D -m "$$1" "$$2" "$(DESTDIR)$$3"; \
+	done
+	$(call fill_in,$(pkgconfig_prefix)) "$(DESTDIR)$(PKGCONFIGDIR)/umbilic.pc"
+	$(call fill_in,$(call way,$(CMAKEDIR),$(PREFIX))) "$(DESTDIR)$(CMAKEDIR)/umbilicConfig.cmake" "$(DESTDIR)$(CMAKEDIR)/umbilicConfigVersion.cmake"
+	for link in $(LIBRARY_LINKS); do ln -sf libumbilic.so.$(VERSION) "$(DESTDIR)$$link" || exit 1; done
+	$(if $(DESTDIR),,if [ "$$(id -u)" -eq 0 ]; then ldconfig; fi)
+
+uninstall:
+	@for entry in $(INSTALLED) $(LIBRARY_LINKS); do echo "remove $(DESTDIR)$${entry##*:}"; rm -f "$(DESTDIR)$${entry##*:}" || exit 1; done
+	for directory in $(INCLUDEDIR)/umbilic $(CMAKEDIR); do \
+	  if [ -d "$(DESTDIR)$$directory" ]; then rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$directory" || exit 1; fi; \
+	done
+	$(if $(DESTDIR),,if [ "$$(id -u)" -eq 0 ]; then ldconfig; fi)
+
+target/release/umbilic:
+	$(MAKE) --no-print-directory $(LIBRARY)
+
+$(PROGRAM_DATA)/done: target/release/umbilic
+	rm -rf $(PROGRAM_DATA)
+	mkdir -p $(PROGRAM_DATA)
+	target/release/umbilic man $(PROGRAM_DATA)
+	for shell in bash zsh fish; do target/release/umbilic completions $$shell > $(PROGRAM_DATA)/umbilic.$$shell || exit 1; done
+	touch $@
+
+# ---- source archive ----
+
+NAME := umbilic-$(VERSION)
+
+# The committed files and the crates that they ask for: the same commit gives the same bytes.
+dist:
+	@.ci/packages git
+	rm -rf target/dist
+	mkdir -p target/dist
+	git archive --prefix=$(NAME)/ HEAD | tar --extract --directory=target/dist
+	mkdir target/dist/$(NAME)/.cargo
+	cd target/dist/$(NAME) && $(CARGO) vendor --locked --sync fuzz/Cargo.toml vendor > .cargo/config.toml
+	tar --create --file=target/dist/$(NAME).tar.gz --use-compress-program="gzip --no-name" --directory=target/dist --format=gnu \
+	  --sort=name --mtime="$$(git log -1 --format=@%ct)" --owner=0 --group=0 --numeric-owner --mode=u+rw,go+r-w,a+X $(NAME)
+	rm -r target/dist/$(NAME)
+
+# The archive, built and installed by someone who has nothing else: as long as any first build.
+dist-check:
+	tests/consumers/archive.sh build
+
+# ---- Debian packages of umbilic ----
+
+DEBIAN := target/debian
+export DEBFULLNAME ?= The umbilic developers
+export DEBEMAIL ?= umbilic@localhost
+# The project has no mail address, and nobody has asked Debian for it.
+LINTIAN := lintian --fail-on error --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog,initial-upload-closes-no-bugs
+
+# Of what is built.
+deb: | target/release/umbilic $(PROGRAM_DATA)/done
+	@.ci/packages dpkg-dev debhelper lintian
+	rm -rf $(DEBIAN)
+	mkdir -p $(DEBIAN)/$(NAME)
+	cp -r bindings/debian $(DEBIAN)/$(NAME)/debian
+	cd $(DEBIAN)/$(NAME)/debian && sed -i -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r $(CURDIR)/CHANGELOG.md)/" \
+	  -e 's/@MAINTAINER@/$(DEBFULLNAME) <$(DEBEMAIL)>/' control changelog
+	cd $(DEBIAN)/$(NAME) && SOURCE=$(CURDIR) dpkg-buildpackage --build=binary --no-sign --no-check-builddeps
+	$(LINTIAN) $(if $(filter 0,$(shell id -u)),--allow-root) $(DEBIAN)/*.changes
+
+test-packages: $(LIBRARY)
+	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES)
+	CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
+	tests/consumers/archive.sh
+
 # ---- the binary interface ----
 
 # Against version 0.1.0, which is kept in tests/abi. UPDATE=1 keeps today's instead: only until 0.1.0 is released.
@@ -205,6 +330,9 @@ sanitize: $(LIBRARY)
 # ---- Debian packages ----
 
 PACKAGES := gcc g++ clang binutils cmake libopenmesh-dev libcgal-dev libeigen3-dev python3-venv
+
+# What packaging needs besides, and its tests.
+PACKAGING_PACKAGES := git dpkg-dev debhelper lintian pkg-config man-db bash-completion
 
 packages:
 	@.ci/packages $(PACKAGES)

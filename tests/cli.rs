@@ -352,6 +352,8 @@ fn wrong_usage_is_told_apart() {
         ("generate cone -o a.ply", "torus"),
         ("generate torus -o a.ply --resolution 0", "1.."),
         ("fly good.obj", "fly"),
+        ("completions shell", "zsh"),
+        ("man", "DIRECTORY"),
         ("", "Usage"),
     ] {
         let error = folder.fail(line, 2);
@@ -362,12 +364,53 @@ fn wrong_usage_is_told_apart() {
 #[test]
 fn help_has_an_example_for_each_command() {
     let folder = Folder::new();
-    for command in ["normals", "curvature", "info", "render", "generate"] {
+    for command in ["normals", "curvature", "info", "render", "generate", "completions", "man"] {
         let help = folder.succeed(&format!("{command} --help"));
         assert!(help.contains(&format!("Example:\n  umbilic {command} ")), "{help}");
     }
     assert!(folder.succeed("--help").contains("Exit status"));
     assert_eq!(folder.succeed("--version"), format!("umbilic {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+/// The commands that the program's own help lists.
+fn commands(folder: &Folder) -> Vec<String> {
+    let help = folder.succeed("-h");
+    let (_, list) = help.split_once("Commands:\n").unwrap();
+    let names = list.lines().map_while(|line| line.strip_prefix("  ")?.split_whitespace().next());
+    names.filter(|&name| name != "help").map(str::to_owned).collect()
+}
+
+#[test]
+fn there_is_a_manual_page_for_each_command() {
+    let folder = Folder::new();
+    assert_eq!(folder.succeed("man share/man1"), "");
+    let commands = commands(&folder);
+    assert!(commands.len() >= 10, "{commands:?}");
+    let page = |name: &str| fs::read_to_string(folder.path("share/man1").join(name)).unwrap();
+    for command in &commands {
+        let (page, program) = (page(&format!("umbilic-{command}.1")), page("umbilic.1"));
+        assert!(page.contains(&format!("  umbilic {command} ")), "{command}: no example");
+        assert!(program.contains(&format!("umbilic\\-{command}(1)")), "{command}: not in umbilic.1");
+    }
+    assert_eq!(fs::read_dir(folder.path("share/man1")).unwrap().count(), commands.len() + 1);
+
+    folder.write("file", "");
+    let error = folder.fail("man file", 1);
+    assert!(error.starts_with("umbilic: file: "), "{error}");
+}
+
+#[test]
+fn shells_complete_commands_options_and_values() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish"] {
+        let script = folder.succeed(&format!("completions {shell}"));
+        for word in commands(&folder) {
+            assert!(script.contains(&word), "{shell}: {word}");
+        }
+        for word in ["crease-angle", "adaptive-jet"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! The commands, each with its arguments and a `run` that returns what to print.
 
+mod completions;
 mod corners;
 mod curvature;
 mod generate;
 mod info;
+mod man;
 mod normals;
 mod polyline;
 mod render;
@@ -25,6 +27,8 @@ pub enum Command {
     Info(info::Info),
     Render(render::Render),
     Generate(generate::Generate),
+    Completions(completions::Completions),
+    Man(man::Man),
 }
 
 impl Command {
@@ -39,6 +43,8 @@ impl Command {
             Command::Info(command) => command.run(),
             Command::Render(command) => command.run(),
             Command::Generate(command) => command.run(),
+            Command::Completions(command) => command.run(),
+            Command::Man(command) => command.run(),
         }
     }
 }

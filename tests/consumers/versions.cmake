@@ -1,0 +1,23 @@
+# cmake -DTEMPLATE=cmake/umbilicConfigVersion.cmake.in -DSCRATCH=... -P versions.cmake: which versions an installed one does for.
+
+function(check VERSION expected)
+  set(place "${SCRATCH}/${VERSION}/umbilicConfig.cmake")
+  file(WRITE "${place}" "")
+  configure_file("${TEMPLATE}" "${SCRATCH}/${VERSION}/umbilicConfigVersion.cmake" @ONLY)
+  foreach(wanted IN LISTS ARGN)
+    string(REPLACE " " ";" words "${wanted}")
+    unset(umbilic_DIR CACHE)
+    find_package(umbilic ${words} QUIET CONFIG PATHS "${SCRATCH}/${VERSION}" NO_DEFAULT_PATH)
+    if((umbilic_FOUND AND NOT expected) OR (expected AND NOT umbilic_FOUND))
+      message(SEND_ERROR "${VERSION} where ${wanted} is wanted: ${umbilic_FOUND}")
+    endif()
+  endforeach()
+endfunction()
+
+cmake_policy(VERSION 3.19)
+check(0.1.4 TRUE "" 0.1 0.1.0 0.1.4 "0.1.4 EXACT" 0.1.2...0.1.9 0.1.4...0.2 0.1...<0.3 0.0...1.0 0.1...0.1.4)
+check(0.1.4 FALSE 0 0.0 0.1.5 "0.1.3 EXACT" "0.1 EXACT" 0.2 0.10 1 1.0 0.2...0.5 0.0...<0.1.4 0.1.5...0.2)
+check(1.2.3 TRUE "" 1 1.0 1.2 1.2.3 "1.2.3 EXACT" 1.0...<2 0.9...1.9)
+check(1.2.3 FALSE 0.1 1.2.4 1.3 2 2.0 10.2 "1.2.0 EXACT" 0.1...<1 1.3...1.9)
+check(12.0.0 TRUE 12)
+check(12.0.0 FALSE 1 1.2)
