@@ -19,7 +19,7 @@ PAPER_VENV := target/paper-venv
 BENCH_TARGET := target/bench
 
 .PHONY: help demo test test-rust test-c test-cpp test-examples test-peers lint abi sanitize fuzz fuzz-build bench bench-programs \
-  bench-instructions accuracy paper pictures header packages clean FORCE
+  bench-instructions accuracy paper pictures header packages clean test-python FORCE
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
@@ -32,6 +32,7 @@ help:
 	@echo "make paper                the paper's tables and figures anew, its claims measured: docs/paper"
 	@echo "make pictures             the pictures of the README; scans by umbilic, libigl and VCG: docs/scans.md"
 	@echo "make fuzz [SECONDS=60]    hostile input, so long for each target [TARGETS=\"normals readers\"]: target/fuzz/summary.txt"
+	@echo "make test-python          the Python package: a wheel, its tests, examples, types and pictures"
 	@echo "make lint                 rustfmt, clippy, and the links of the documentation"
 	@echo "make header               include/umbilic.h anew from src/capi"
 
@@ -126,6 +127,32 @@ $(VENV)/done: tests/peers/requirements.txt | packages
 
 $(MESHES): | packages
 	tests/peers/meshes.sh target/meshes
+
+# ---- the Python package ----
+
+PYTHON_TARGET := target/python
+PYTHON_VENV := $(PYTHON_TARGET)/venv
+# What pyvista draws with, off-screen.
+PYTHON_PACKAGES := gcc python3-venv libegl1 libgl1 libxrender1
+
+# The wheel holds the library as it is built, and is all that the tests see of the package.
+test-python: $(LIBRARY) $(MESHES) $(PYTHON_VENV)/done
+	rm -rf $(PYTHON_TARGET)/wheel
+	UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(PYTHON_VENV)/bin/pip wheel --quiet --disable-pip-version-check --no-deps \
+	  --wheel-dir $(PYTHON_TARGET)/wheel ./bindings/python
+	$(PYTHON_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(PYTHON_TARGET)/wheel/*.whl
+	cd bindings/python && unset PYTHONPATH UMBILIC_LIBRARY && bin=$(CURDIR)/$(PYTHON_VENV)/bin && \
+	  $$bin/python -B -m pytest -q -p no:cacheprovider tests && \
+	  $$bin/python -B -m pytest -q -p no:cacheprovider --doctest-modules --pyargs umbilic && \
+	  $$bin/mypy --cache-dir $(CURDIR)/$(PYTHON_TARGET)/mypy && \
+	  $$bin/python -B gallery.py $(CURDIR)/$(PYTHON_TARGET)/gallery $(CURDIR)/$(MESHES)/fandisk.off
+
+$(PYTHON_VENV)/done: bindings/python/tests/requirements.txt
+	@.ci/packages $(PYTHON_PACKAGES)
+	rm -rf $(PYTHON_VENV)
+	$(PYTHON) -m venv $(PYTHON_VENV)
+	$(PYTHON_VENV)/bin/pip install --quiet --disable-pip-version-check -r bindings/python/tests/requirements.txt
+	touch $@
 
 # ---- the binary interface ----
 

@@ -34,7 +34,7 @@ def vectors(values: ArrayLike, name: str, columns: tuple[int, ...] = (3,)) -> Fl
     if array.ndim != 2 or array.shape[1] not in columns:
         shape = " or ".join(f"(n, {count})" for count in columns)
         raise ValueError(f"{name} has the shape {array.shape}, not {shape}")
-    return array if in_place(array) else numpy.ascontiguousarray(array)
+    return _readable(array)
 
 
 def numbers(values: ArrayLike, name: str) -> FloatArray:
@@ -42,7 +42,11 @@ def numbers(values: ArrayLike, name: str) -> FloatArray:
     array = _floats(values, name)
     if array.ndim != 1:
         raise ValueError(f"{name} has the shape {array.shape}, not (n,)")
-    return array if in_place(array) else numpy.ascontiguousarray(array)
+    return _readable(array)
+
+
+def _readable(array: NDArray[Any]) -> NDArray[Any]:
+    return array if in_place(array) else array.astype(array.dtype.newbyteorder("="), order="C")
 
 
 def _floats(values: ArrayLike, name: str) -> FloatArray:
@@ -78,7 +82,8 @@ def indices(values: ArrayLike, name: str) -> IndexArray:
         if len(bad):
             message = f"{name}: element {bad[0]} is {array.flat[bad[0]]}, no index of 32 bits"
             raise IndexOutOfRange(message, Status.INDEX_OUT_OF_RANGE, int(bad[0]))
-    return numpy.ascontiguousarray(array, numpy.uint32)
+    found: IndexArray = numpy.require(array, numpy.uint32, ["C", "A"])
+    return found
 
 
 def index_list(values: ArrayLike, name: str) -> IndexArray:
@@ -95,7 +100,7 @@ def bytes_of(values: Optional[ArrayLike], name: str) -> Optional[StatusArray]:
     array = numpy.asarray(values)
     if array.dtype != numpy.uint8 or array.ndim != 1:
         raise TypeError(f"{name} has the type {array.dtype} and the shape {array.shape}, not uint8 and (n,)")
-    return array if in_place(array) else numpy.ascontiguousarray(array)
+    return _readable(array)
 
 
 def unsigned(value: Any, name: str, bits: int = 32) -> int:
@@ -198,7 +203,7 @@ class Outputs:
                 kind = numpy.uint8 if name == "status" else dtype
                 # What is not written must not be what memory held before.
                 self.arrays[name] = (numpy.zeros if partial else numpy.empty)(shapes[name], kind)
-        _check_overlaps(self.arrays, given, inputs)
+        _check_overlaps(given, inputs)
 
     def fields(self) -> dict[str, Any]:
         return {name: _status_output(array) if name == "status" else output(array) for name, array in self.arrays.items()}
@@ -230,21 +235,14 @@ def _check_output(array: Any, name: str, shape: tuple[int, ...]) -> None:
         )
 
 
-def _check_overlaps(
-    arrays: Mapping[str, NDArray[Any]],
-    given: Mapping[str, NDArray[Any]],
-    inputs: Iterable[Optional[NDArray[Any]]],
-) -> None:
+def _check_overlaps(given: Mapping[str, NDArray[Any]], inputs: Iterable[Optional[NDArray[Any]]]) -> None:
     """Arrays of the caller's must not share a byte with any other of the call; they may be interleaved."""
     others = [("an input", array) for array in inputs if array is not None]
-    others += [(f"out[{name!r}]", array) for name, array in arrays.items()]
     for name, array in given.items():
         for other_name, other in others:
-            if other is not array and numpy.shares_memory(array, other):
+            if numpy.shares_memory(array, other):
                 raise ValueError(f"out[{name!r}] overlaps {other_name}")
-    addresses = [address(array) for array in given.values() if array.size]
-    if len(set(addresses)) != len(addresses):
-        raise ValueError("one array of `out` stands for two outputs")
+        others.append((f"out[{name!r}]", array))
 
 
 class Result:

@@ -65,7 +65,7 @@ class FaceArrays:
         if isinstance(faces, Polygons):
             self.indices, self.offsets = _alike(_integers(faces.indices, 1), _integers(faces.offsets, 1))
         elif isinstance(faces, numpy.ndarray) and faces.dtype != object:
-            self.indices = numpy.ascontiguousarray(_integers(faces, 2))
+            self.indices = _integers(faces, 2)
             self.arity = faces.shape[1]
             if self.arity == 0:
                 raise ValueError("faces have no corners")
@@ -74,10 +74,12 @@ class FaceArrays:
 
     def _take(self, faces: Any) -> None:
         """A sequence of sequences: an array if all are of one length."""
-        faces = [numpy.asarray(face) if isinstance(face, numpy.ndarray) else list(face) for face in faces]
+        faces = [
+            face if isinstance(face, numpy.ndarray) and face.dtype != object else list(face) for face in faces
+        ]
         lengths = [len(face) for face in faces]
         if len(set(lengths)) == 1 and lengths[0]:
-            self.indices, self.arity = numpy.ascontiguousarray(_integers(numpy.asarray(faces), 2)), lengths[0]
+            self.indices, self.arity = _integers(numpy.asarray(faces), 2), lengths[0]
         elif not faces:
             self.indices, self.arity = numpy.empty((0, 3), numpy.uint32), 3
         else:
@@ -123,6 +125,7 @@ class FaceArrays:
 
 
 def _integers(values: Any, dimensions: int) -> NDArray[Any]:
+    """A contiguous array of a type that the library reads, in place if it is one."""
     array = numpy.asarray(values)
     if array.dtype.kind not in "iu":
         raise TypeError(f"faces have elements of type {array.dtype}, not integers")
@@ -131,8 +134,8 @@ def _integers(values: Any, dimensions: int) -> NDArray[Any]:
         raise ValueError(f"faces have the shape {array.shape}, not {shape}")
     if array.dtype.itemsize < 4:
         array = array.astype(numpy.int32)
-    if not (array.dtype.isnative and array.flags.aligned):
-        array = array.astype(array.dtype.newbyteorder("="))
+    if not (array.dtype.isnative and array.flags.aligned and array.flags.c_contiguous):
+        array = array.astype(array.dtype.newbyteorder("="), order="C")
     return array
 
 
@@ -142,4 +145,4 @@ def _alike(indices: NDArray[Any], offsets: NDArray[Any]) -> tuple[NDArray[Any], 
         indices, offsets = indices.astype(numpy.int64), offsets.astype(numpy.int64)
     if not len(offsets):
         raise ValueError("offsets are empty, not one more than there are faces")
-    return numpy.ascontiguousarray(indices), numpy.ascontiguousarray(offsets)
+    return indices, offsets
