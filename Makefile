@@ -116,9 +116,9 @@ test-examples: $(LIBRARY) $(MESHES) | packages
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
-	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
-	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
-	$(VENV)/bin/python -B tests/peers/corners.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/peers.py $(MESHES)
+	$(VENV)/bin/python -B tests/peers/curvature.py $(MESHES)
+	$(VENV)/bin/python -B tests/peers/corners.py $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)
@@ -216,8 +216,8 @@ accuracy: $(LIBRARY) $(ACCURACY)/venv/done | packages
 	cmake -S benches/accuracy/cpp -B $(ACCURACY)/peers -DCMAKE_BUILD_TYPE=Release
 	cmake --build $(ACCURACY)/peers
 	$(ACCURACY)/venv/bin/python -B benches/accuracy/check.py
-	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
-	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py $(LIBRARY) --peers $(ACCURACY)/peers
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py --peers $(ACCURACY)/peers
 
 $(ACCURACY)/venv/done: benches/accuracy/requirements.txt benches/accuracy/peers.txt | packages
 	$(PYTHON) -m venv $(ACCURACY)/venv
@@ -232,8 +232,8 @@ $(ACCURACY)/venv/done: benches/accuracy/requirements.txt benches/accuracy/peers.
 
 # Fails if a printed digit of the tables that reproduce does not come out.
 paper: $(LIBRARY) $(PAPER_VENV)/done
-	$(PAPER_VENV)/bin/python -B benches/paper/paper.py $(LIBRARY)
-	$(PAPER_VENV)/bin/python -B benches/paper/check_digits.py $(LIBRARY)
+	$(PAPER_VENV)/bin/python -B benches/paper/paper.py
+	$(PAPER_VENV)/bin/python -B benches/paper/check_digits.py
 
 $(PAPER_VENV)/done: benches/paper/requirements.txt
 	@.ci/packages python3-venv
@@ -253,7 +253,7 @@ pictures: $(LIBRARY) $(MESHES) $(VENV)/scans
 	  --size 320x280
 	target/release/umbilic segment $(MESHES)/elephant.off --by watershed --picture docs/elephant_basins.png --size 320x280 \
 	  --azimuth -10
-	$(VENV)/bin/python -B benches/scans/scans.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B benches/scans/scans.py $(MESHES)
 
 $(VENV)/scans: benches/scans/requirements.txt $(VENV)/done
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/scans/requirements.txt
