@@ -88,6 +88,8 @@ def test_shapes(torus):
     assert (classes[outside] == Shape.PEAK).all() and (classes[torus.k2 < -0.05] == Shape.SADDLE_RIDGE).all()
     assert (umbilic.shape_classes(k1, k2, tolerance=100.0) == Shape.FLAT).all()
     assert (umbilic.shape_classes([0, 1, -1], [0, 0, 0], tolerance=0) == [Shape.FLAT, Shape.RIDGE, Shape.VALLEY]).all()
+    lost = numpy.full(len(k1), umbilic.VertexStatus.DEGENERATE, numpy.uint8)
+    assert (umbilic.shape_classes(k1, k2, tolerance=1.0, status=lost) == Shape.UNDEFINED).all()
     with pytest.raises(TypeError, match="or a tolerance"):
         umbilic.shape_classes(k1, k2)
     with pytest.raises(umbilic.Error):
