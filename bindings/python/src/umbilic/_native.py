@@ -9,7 +9,7 @@ import ctypes
 import os
 import sys
 import types
-from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_uint8
+from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
 from ctypes import c_uint32, c_uint64, c_void_p, py_object, sizeof
 from pathlib import Path
 from typing import Any
