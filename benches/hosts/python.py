@@ -3,9 +3,10 @@
 
     UMBILIC_LIBRARY=target/release/libumbilic.so PYTHONPATH=bindings/python/src python3 benches/hosts/python.py MESH
 
-MESH is a file that trimesh reads. Prints lines `host, quantity, copies, library_ms, adapter_ms`, by tabs: how many times positions,
-faces or results are copied; milliseconds of the C interface alone on the same arrays, and what a whole call in the host's own terms
-takes beyond that. Both the best of several rounds in turn, one thread, in the host's own precision (pyvista: float32).
+MESH is a file that trimesh reads. Prints lines `host, quantity, copies, library_ms, adapter_ms`, by tabs: how many
+times positions, faces or results are copied; milliseconds of the C interface alone on the same arrays, and what a whole
+call in the host's own terms takes beyond that. Both the best of several rounds in turn, one thread, in the host's own
+precision (pyvista: float32).
 """
 
 import sys
@@ -182,7 +183,13 @@ def measure(host):
             alone.append(getattr(library, name)())
             whole.append(timed(getattr(host, name)))
         beyond = 1e3 * (min(whole) - min(alone))
-        columns = host.name, quantity, copies(host, quantity, getattr(host, name)), f"{1e3 * min(alone):.3f}", f"{beyond:.3f}"
+        columns = (
+            host.name,
+            quantity,
+            copies(host, quantity, getattr(host, name)),
+            f"{1e3 * min(alone):.3f}",
+            f"{beyond:.3f}",
+        )
         print(*columns, sep="\t", flush=True)
 
 

@@ -3,8 +3,8 @@
 
     python3 gallery.py FOLDER MESH...
 
-Mean curvature, the principal directions as lines, and segments: by creases if there are any, else by watershed. Needs umbilic and pyvista; meshes are whatever
-pyvista reads, and OFF.
+Mean curvature, the principal directions as lines, and segments: by creases if there are any, else by watershed. Needs
+umbilic and pyvista; meshes are whatever pyvista reads, and OFF.
 """
 
 import sys

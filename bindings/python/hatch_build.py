@@ -1,4 +1,4 @@
-"""Puts the compiled library into the wheel: the one that UMBILIC_LIBRARY names, else what cargo makes of the repository.
+"""Puts the compiled library into the wheel: the one that UMBILIC_LIBRARY names, else what cargo makes here.
 
 The wheel serves any Python 3 of its platform, because the library is called through ctypes.
 """

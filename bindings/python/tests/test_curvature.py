@@ -78,7 +78,9 @@ def test_mean_curvature_normals_are_those_of_libigl(lump):
     found = umbilic.curvatures(positions, faces, method="meyer", outputs=("mean_normal", "area"))
     theirs = -(igl.cotmatrix(positions, faces) @ positions) / 2
     assert numpy.abs(found.mean_normal * found.area[:, None] - theirs).max() < 1e-10
-    assert numpy.abs(found.area - igl.massmatrix(positions, faces, igl.MASSMATRIX_TYPE_VORONOI).diagonal()).max() < 1e-12
+    assert (
+        numpy.abs(found.area - igl.massmatrix(positions, faces, igl.MASSMATRIX_TYPE_VORONOI).diagonal()).max() < 1e-12
+    )
 
 
 def test_principal_curvatures_are_near_those_of_libigl(torus):

@@ -116,8 +116,10 @@ def wrong_arguments(positions, faces):
     yield ValueError, "normals has the shape", lambda: curvatures(positions, faces, normals=positions[:, 0])
     yield InvalidArgument, "", lambda: umbilic.Cut(positions, faces, angle=-1)
     yield InvalidArgument, "", lambda: umbilic.Cut(positions, faces, angle=float("nan"))
-    yield TypeError, "angle, edges and groups go without", lambda: umbilic.corner_normals(
-        positions, umbilic.Cut(positions, faces), angle=1
+    yield (
+        TypeError,
+        "angle, edges and groups go without",
+        lambda: umbilic.corner_normals(positions, umbilic.Cut(positions, faces), angle=1),
     )
     yield InvalidArgument, "", lambda: umbilic.affected_normals(mesh, [0], status=numpy.zeros(3, "u1"))
     yield ValueError, "vertex is -1", lambda: mesh.valence(-1)

@@ -106,7 +106,13 @@ def test_meshio(lump, tmp_path):
 
 def test_meshio_blocks():
     positions, quads = umbilic.examples.cube()
-    cells = [("line", [[0, 1]]), ("quad", quads[:4]), ("vertex", [[0]]), ("triangle", [[0, 2, 6], [0, 6, 4]]), ("quad", quads[5:])]
+    cells = [
+        ("line", [[0, 1]]),
+        ("quad", quads[:4]),
+        ("vertex", [[0]]),
+        ("triangle", [[0, 2, 6], [0, 6, 4]]),
+        ("quad", quads[5:]),
+    ]
     mesh = meshio.Mesh(positions, cells)
     assert isinstance(umbilic.meshio.faces(mesh), umbilic.Polygons)
     parts = umbilic.meshio.segment(mesh)

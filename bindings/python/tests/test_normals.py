@@ -105,9 +105,7 @@ def test_a_cut_has_positions_faces_and_normals_of_its_own(torus):
     assert numpy.array_equal(numpy.diff(cut.starts), numpy.bincount(cut.origins))
     every = umbilic.corner_normals(positions, cut, outputs=("corner", "normal", "sum", "status"))
     assert numpy.array_equal(every.normal[cut.corners], every.corner)
-    assert numpy.array_equal(
-        umbilic.vertex_normals(cut.points(positions), cut.topology).normal, every.normal
-    )
+    assert numpy.array_equal(umbilic.vertex_normals(cut.points(positions), cut.topology).normal, every.normal)
     ragged = umbilic.Cut(torus.positions, umbilic.Polygons.from_cells(numpy.insert(torus.quads, 0, 4, 1).ravel()))
     assert isinstance(ragged.faces, umbilic.Polygons) and len(ragged.faces.offsets) == len(torus.quads) + 1
     with pytest.raises(umbilic.Error) as error:

@@ -191,9 +191,10 @@ faces = [[], [[0, 1, 2]], [[0, 1, 2, 3]], [[0, 0, 0]], [[0, 1, -1]], [[0, 1, 4]]
 lists = [None, [], [0], [3, 3, 3], [4], [-1], [2**32], numpy.array([0], "f8"), [[0]], [1, 2**70]]
 for xyz, polygons in itertools.product(positions, faces):
     calls = [lambda: umbilic.face_normals(xyz, polygons), lambda: umbilic.corner_normals(xyz, polygons),
-             lambda: umbilic.segment_features(xyz, polygons, edges=[[0, 9]]), lambda: umbilic.segment_regions(xyz, polygons),
-             lambda: umbilic.segment_watershed(xyz, polygons), lambda: umbilic.polyline_curvatures(xyz),
-             lambda: umbilic.Cut(xyz, polygons, groups=[1]).topology.stats(), lambda: umbilic.learn_model(xyz, polygons)]
+             lambda: umbilic.segment_features(xyz, polygons, edges=[[0, 9]]),
+             lambda: umbilic.segment_regions(xyz, polygons), lambda: umbilic.segment_watershed(xyz, polygons),
+             lambda: umbilic.Cut(xyz, polygons, groups=[1]).topology.stats(),
+             lambda: umbilic.polyline_curvatures(xyz), lambda: umbilic.learn_model(xyz, polygons)]
     calls += [lambda v=v, w=w: umbilic.vertex_normals(xyz, polygons, vertices=v, weight=w)
               for v in lists for w in ("conformal", "jet", "adaptive-jet")]
     calls += [lambda m=m: umbilic.curvatures(xyz, polygons, method=m) for m in umbilic.METHODS]

@@ -32,9 +32,11 @@ def test_faces_in_every_form(torus):
 
 def test_polygons_of_any_size():
     pyramid = [[3, 2, 1, 0], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
-    for faces in (pyramid, [numpy.array(face) for face in pyramid], Polygons.from_cells(
-        [each for face in pyramid for each in (len(face), *face)]
-    )):
+    for faces in (
+        pyramid,
+        [numpy.array(face) for face in pyramid],
+        Polygons.from_cells([each for face in pyramid for each in (len(face), *face)]),
+    ):
         mesh = Topology(faces, 5)
         assert [mesh.valence(vertex) for vertex in range(5)] == [3, 3, 3, 3, 4]
         assert mesh.face_count == 5 and mesh.stats().euler_characteristic == 2
@@ -42,7 +44,12 @@ def test_polygons_of_any_size():
 
 
 def test_meshes_without_faces_or_vertices():
-    for faces in ([], numpy.empty((0, 3), int), numpy.empty((0, 4), "u4"), Polygons(numpy.empty(0, int), numpy.array([0]))):
+    for faces in (
+        [],
+        numpy.empty((0, 3), int),
+        numpy.empty((0, 4), "u4"),
+        Polygons(numpy.empty(0, int), numpy.array([0])),
+    ):
         mesh = Topology(faces, 2)
         assert mesh.vertex_count == 2 and mesh.stats().isolated_vertices == 2 and not len(mesh.ring_neighbours)
         assert (mesh.flags == VertexStatus.ISOLATED).all() and mesh.fans(1) == [] and not len(mesh.ring(1))
@@ -95,7 +102,12 @@ def test_closing(ball):
 
 
 def test_cells_that_are_none():
-    for cells, kind in (([3, 0, 1], ValueError), ([-1, 0], ValueError), ([[3, 0, 1, 2]], TypeError), ([3.0], TypeError)):
+    for cells, kind in (
+        ([3, 0, 1], ValueError),
+        ([-1, 0], ValueError),
+        ([[3, 0, 1, 2]], TypeError),
+        ([3.0], TypeError),
+    ):
         with pytest.raises(kind):
             Polygons.from_cells(cells)
     assert len(Polygons.from_cells(numpy.empty(0, int)).offsets) == 1

@@ -1,4 +1,4 @@
-"""Vertex normals, corner normals, curvatures and segments of polygon meshes, and curvatures of polylines, on numpy's arrays.
+"""Normals, curvatures and segments of polygon meshes, and curvatures of polylines, on numpy's arrays.
 
 >>> import numpy, umbilic
 >>> positions, triangles = umbilic.examples.sphere(3)
@@ -6,8 +6,8 @@
 >>> normals, status = umbilic.vertex_normals(positions, mesh)
 >>> k1, k2, direction1, direction2, status = umbilic.curvatures(positions, mesh)
 
-Functions take faces, too, in place of the topology. Arrays are read and written where they are if their layouts allow; results
-are the same bits for any number of threads; the interpreter's lock is released during calls. `umbilic.trimesh`,
+Functions take faces, too, in place of the topology. Arrays are read and written where they are if their layouts allow;
+results are the same bits for any number of threads; the interpreter's lock is released during calls. `umbilic.trimesh`,
 `umbilic.pyvista` and `umbilic.meshio` take meshes of these packages and write results into them.
 """
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import operator
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Optional
+from typing import Any
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -93,7 +93,7 @@ def index_list(values: ArrayLike, name: str) -> IndexArray:
     return array
 
 
-def bytes_of(values: Optional[ArrayLike], name: str) -> Optional[StatusArray]:
+def bytes_of(values: ArrayLike | None, name: str) -> StatusArray | None:
     """An array `#V` of bytes, or none."""
     if values is None:
         return None
@@ -111,7 +111,7 @@ def unsigned(value: Any, name: str, bits: int = 32) -> int:
     return integer
 
 
-def limit(value: Optional[float]) -> float:
+def limit(value: float | None) -> float:
     """A limit for the library, for which 0 stands for its default and a tiny number for none."""
     if value is None:
         return 0.0
@@ -129,12 +129,10 @@ def _stride(array: NDArray[Any]) -> int:
     return array.strides[0] if len(array) > 1 else 0
 
 
-def points(array: Optional[FloatArray]) -> native.Points:
+def points(array: FloatArray | None) -> native.Points:
     if array is None:
         return native.Points()
-    return native.Points(
-        data=address(array), count=len(array), stride=_stride(array), scalar=_SCALARS[array.dtype]
-    )
+    return native.Points(data=address(array), count=len(array), stride=_stride(array), scalar=_SCALARS[array.dtype])
 
 
 def scalars(array: FloatArray, at: str) -> native.Scalars:
@@ -147,13 +145,13 @@ def scalars(array: FloatArray, at: str) -> native.Scalars:
     )
 
 
-def byte_view(array: Optional[StatusArray]) -> native.Bytes:
+def byte_view(array: StatusArray | None) -> native.Bytes:
     if array is None:
         return native.Bytes()
     return native.Bytes(data=address(array), count=len(array), stride=_stride(array))
 
 
-def memory(handle: native.Handle, pointer: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
+def memory(handle: native.Handle, pointer: int | None, count: int, dtype: Any) -> NDArray[Any]:
     """An array of the library's memory, read-only, that keeps the object it is part of."""
     if not count or not pointer:
         empty = numpy.empty(0, dtype)
@@ -182,11 +180,11 @@ class Outputs:
     def __init__(
         self,
         names: Sequence[str],
-        out: Optional[Mapping[str, NDArray[Any]]],
+        out: Mapping[str, NDArray[Any]] | None,
         shapes: Mapping[str, tuple[int, ...]],
         dtype: Any,
         partial: bool = False,
-        inputs: Iterable[Optional[NDArray[Any]]] = (),
+        inputs: Iterable[NDArray[Any] | None] = (),
     ) -> None:
         """`shapes` of all outputs that there are; `partial` if not all elements will be written."""
         given = dict(out or {})
@@ -206,7 +204,9 @@ class Outputs:
         _check_overlaps(given, inputs)
 
     def fields(self) -> dict[str, Any]:
-        return {name: _status_output(array) if name == "status" else output(array) for name, array in self.arrays.items()}
+        return {
+            name: _status_output(array) if name == "status" else output(array) for name, array in self.arrays.items()
+        }
 
 
 def output(array: NDArray[Any]) -> native.Output:
@@ -235,7 +235,7 @@ def _check_output(array: Any, name: str, shape: tuple[int, ...]) -> None:
         )
 
 
-def _check_overlaps(given: Mapping[str, NDArray[Any]], inputs: Iterable[Optional[NDArray[Any]]]) -> None:
+def _check_overlaps(given: Mapping[str, NDArray[Any]], inputs: Iterable[NDArray[Any] | None]) -> None:
     """Arrays of the caller's must not share a byte with any other of the call; they may be interleaved."""
     others = [("an input", array) for array in inputs if array is not None]
     for name, array in given.items():
@@ -267,4 +267,3 @@ class Result:
     def __repr__(self) -> str:
         fields = (f"{name}={array.dtype}{list(array.shape)}" for name, array in self.__dict__.items())
         return f"{type(self).__name__}({', '.join(fields)})"
-

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Literal, Optional, Union
+from typing import Any, Callable, Literal
 
 import numpy
 from numpy.typing import NDArray
@@ -42,6 +42,6 @@ def regular(indices: NDArray[Any], offsets: NDArray[Any]) -> Faces:
     return Polygons(indices, offsets)
 
 
-def chosen(topology: Optional[Topology], faces: Callable[[Any], Faces], mesh: Any) -> Union[Topology, Faces]:
+def chosen(topology: Topology | None, faces: Callable[[Any], Faces], mesh: Any) -> Topology | Faces:
     """The topology given, or the mesh's faces."""
     return faces(mesh) if topology is None else topology

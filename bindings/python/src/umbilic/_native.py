@@ -9,8 +9,23 @@ import ctypes
 import os
 import sys
 import types
-from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t
-from ctypes import c_uint32, c_uint64, c_void_p, py_object, sizeof
+from ctypes import (
+    POINTER,
+    Structure,
+    byref,
+    c_char,
+    c_char_p,
+    c_double,
+    c_int,
+    c_int32,
+    c_int64,
+    c_size_t,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+    py_object,
+    sizeof,
+)
 from pathlib import Path
 from typing import Any
 
@@ -360,11 +375,14 @@ _FALLIBLE: dict[str, list[Any]] = {
     "umb_cut_create": [POINTER(Faces), POINTER(Points), POINTER(Creases), POINTER(TopologyOptions), _out],
     "umb_cut_points": [_handle, POINTER(Points), POINTER(Output)],
     "umb_corner_normals": [_handle, POINTER(Points), POINTER(NormalOptions), POINTER(CornerOutputs)],
-    "umb_affected_normals": [
-        _handle, POINTER(Moved), POINTER(NormalOptions), c_void_p, c_size_t, POINTER(c_size_t)
-    ],
+    "umb_affected_normals": [_handle, POINTER(Moved), POINTER(NormalOptions), c_void_p, c_size_t, POINTER(c_size_t)],
     "umb_affected_curvatures": [
-        _handle, POINTER(Moved), POINTER(CurvatureOptions), c_void_p, c_size_t, POINTER(c_size_t)
+        _handle,
+        POINTER(Moved),
+        POINTER(CurvatureOptions),
+        c_void_p,
+        c_size_t,
+        POINTER(c_size_t),
     ],
     "umb_shape_tolerance": [POINTER(Points), POINTER(c_double)],
     "umb_shape_classes": [POINTER(Scalars), POINTER(Scalars), POINTER(ShapeOptions), POINTER(StatusOutput)],
@@ -372,9 +390,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "umb_segment_watershed": [POINTER(Faces), POINTER(Points), POINTER(WatershedOptions), _out],
     "umb_segment_regions": [POINTER(Faces), POINTER(Points), POINTER(RegionOptions), _out],
     "umb_segmentation_areas": [_handle, POINTER(Faces), POINTER(Points), c_void_p, c_size_t],
-    "umb_segmentation_means": [
-        _handle, POINTER(Faces), POINTER(Points), POINTER(Scalars), c_void_p, c_size_t
-    ],
+    "umb_segmentation_means": [_handle, POINTER(Faces), POINTER(Points), POINTER(Scalars), c_void_p, c_size_t],
 }
 _PLAIN: dict[str, tuple[Any, list[Any]]] = {
     "umb_topology_destroy": (None, [_handle]),

@@ -1,9 +1,9 @@
-"""How a call is carried out: threads, vectors, lists of vertices, progress; and how a callback's exception comes out."""
+"""How a call is carried out: threads, vectors, lists, progress; and how a callback's exception comes out."""
 
 from __future__ import annotations
 
 from collections.abc import Generator
-from typing import Any, Callable, Optional
+from typing import Any, Callable
 
 from . import _native as native
 from ._arrays import IndexArray, address, unsigned
@@ -23,8 +23,8 @@ class Run:
         self,
         threads: int = 0,
         simd: str = "best",
-        progress: Optional[Progress] = None,
-        vertices: Optional[IndexArray] = None,
+        progress: Progress | None = None,
+        vertices: IndexArray | None = None,
     ) -> None:
         self.raised: list[BaseException] = []
         if progress is not None and not callable(progress):
@@ -49,7 +49,7 @@ class Run:
             raise
 
 
-def _watch(progress: Optional[Progress], raised: list[BaseException]) -> Generator[int, float, None]:
+def _watch(progress: Progress | None, raised: list[BaseException]) -> Generator[int, float, None]:
     """Takes the fraction done at each callback and answers with 1 to cancel."""
     stop = 0
     while True:
@@ -65,6 +65,4 @@ def _watch(progress: Optional[Progress], raised: list[BaseException]) -> Generat
 
 
 def topology_options(threads: int, simd: str) -> Any:
-    return native.sized(
-        native.TopologyOptions, threads=unsigned(threads, "threads"), simd=number("simd", simd)
-    )
+    return native.sized(native.TopologyOptions, threads=unsigned(threads, "threads"), simd=number("simd", simd))

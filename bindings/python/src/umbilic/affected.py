@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref, c_size_t
-from typing import Any, Optional
+from typing import Any
 
 import numpy
 from numpy.typing import ArrayLike
@@ -25,11 +25,11 @@ def affected_normals(
     weight: Weight = "conformal",
     degree: int = 0,
     rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    status: Optional[ArrayLike] = None,
+    model: AdaptiveModel | None = None,
+    status: ArrayLike | None = None,
 ) -> IndexArray:
-    """The vertices whose normals may change as others move, each once: `vertices` of a call that brings them up to date. With
-    the results that it leaves alone it gives the same bits as a call for all.
+    """The vertices whose normals may change as others move, each once: `vertices` of a call that brings them up to
+    date. With the results that it leaves alone it gives the same bits as a call for all.
 
     moved
         The vertices that moved.
@@ -58,9 +58,9 @@ def affected_normals(
 def affected_curvatures(
     topology: Topology,
     moved: ArrayLike,
-    options: Optional[CurvatureOptions] = None,
+    options: CurvatureOptions | None = None,
     *,
-    status: Optional[ArrayLike] = None,
+    status: ArrayLike | None = None,
 ) -> IndexArray:
     """The vertices whose curvatures may change as others move, or as normals do that are given for them.
 
@@ -80,7 +80,7 @@ def affected_curvatures(
 
 
 def _affected(
-    function: Any, topology: Topology, moved: ArrayLike, status: Optional[ArrayLike], options: Any
+    function: Any, topology: Topology, moved: ArrayLike, status: ArrayLike | None, options: Any
 ) -> IndexArray:
     vertices, known = arrays.index_list(moved, "moved"), arrays.bytes_of(status, "status")
     view = native.sized(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_void_p
 from types import TracebackType
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,7 @@ class CreaseArrays:
     """Which edges are creases, as a struct, with what it points into."""
 
     def __init__(
-        self, angle: Optional[float], edges: Optional[ArrayLike], groups: Optional[ArrayLike], faces: FaceArrays
+        self, angle: float | None, edges: ArrayLike | None, groups: ArrayLike | None, faces: FaceArrays
     ) -> None:
         self.edges = None if edges is None else arrays.indices(edges, "edges").reshape(-1)
         if edges is not None and numpy.ndim(edges) != 2 and numpy.size(edges):
@@ -50,15 +50,15 @@ class CreaseArrays:
 class Cut:
     """A mesh cut open along its creases: a vertex for each run of faces around a vertex that no crease divides.
 
-    Whatever is computed over its `topology` stops at creases: normals become corner normals, and fits and curvatures of one
-    side take nothing from the other. It may be used by any number of threads at once, and is freed with the last
+    Whatever is computed over its `topology` stops at creases: normals become corner normals, and fits and curvatures of
+    one side take nothing from the other. It may be used by any number of threads at once, and is freed with the last
     reference, or by `close`. As positions move, the cut stays.
 
     positions, faces, threads, simd
         See `vertex_normals`.
     angle
-        An edge is a crease if the normals of its two faces differ by more, in radians. None for 30 degrees, or if `edges` or
-        `groups` are given for none.
+        An edge is a crease if the normals of its two faces differ by more, in radians. None for 30 degrees, or if
+        `edges` or `groups` are given for none.
     edges
         Edges that are creases, `#E × 2` vertices.
     groups
@@ -79,9 +79,9 @@ class Cut:
         positions: ArrayLike,
         faces: Faces,
         *,
-        angle: Optional[float] = None,
-        edges: Optional[ArrayLike] = None,
-        groups: Optional[ArrayLike] = None,
+        angle: float | None = None,
+        edges: ArrayLike | None = None,
+        groups: ArrayLike | None = None,
         threads: int = 0,
         simd: Simd = "best",
     ) -> None:
@@ -93,7 +93,7 @@ class Cut:
             native.call(
                 native.library.umb_cut_create, given.view(), arrays.points(xyz), creases.struct, options, byref(pointer)
             )
-        self._held: Optional[native.Handle] = native.Handle(pointer.value, native.library.umb_cut_destroy)
+        self._held: native.Handle | None = native.Handle(pointer.value, native.library.umb_cut_destroy)
         self._faces = given
         self._original_count = len(xyz)
         #: The number of vertices of the cut mesh.
@@ -117,12 +117,12 @@ class Cut:
         """Frees the memory, once no call, no array and no topology needs it any more. More than once is fine."""
         self._held = None
 
-    def __enter__(self) -> "Cut":
+    def __enter__(self) -> Cut:
         self.handle  # refuses what is closed
         return self
 
     def __exit__(
-        self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
 
@@ -142,7 +142,7 @@ class Cut:
         return arrays.memory(handle, native.library.umb_cut_corners(handle), self.corner_count, numpy.uint32)
 
     @property
-    def faces(self) -> Union[IndexArray, Polygons]:
+    def faces(self) -> IndexArray | Polygons:
         """The faces of the cut mesh: its corners, in the form of the faces that were cut."""
         return self._faces.shaped(self.corners)
 
@@ -154,7 +154,7 @@ class Cut:
 
     @property
     def starts(self) -> IndexArray:
-        """The vertices of the cut mesh that come from vertex v are those from `starts[v]` up to `starts[v + 1]`; read-only."""
+        """From vertex v come the vertices of the cut mesh from `starts[v]` up to `starts[v + 1]`; read-only."""
         handle = self.handle
         return arrays.memory(handle, native.library.umb_cut_starts(handle), self._original_count + 1, numpy.uint32)
 
@@ -177,26 +177,26 @@ class CornerNormals(Result):
 
 def corner_normals(
     positions: ArrayLike,
-    faces: Union[Cut, Faces],
+    faces: Cut | Faces,
     *,
-    angle: Optional[float] = None,
-    edges: Optional[ArrayLike] = None,
-    groups: Optional[ArrayLike] = None,
+    angle: float | None = None,
+    edges: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
     weight: Weight = "conformal",
     degree: int = 0,
     rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    vertices: Optional[ArrayLike] = None,
+    model: AdaptiveModel | None = None,
+    vertices: ArrayLike | None = None,
     outputs: Sequence[CornerOutput] = ("corner",),
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> CornerNormals:
     """A unit normal for each corner of each face: smooth where faces go on, split at creases.
 
-    `weight="angle"` is what Blender takes, and what those expect who bake with MikkTSpace. Of triangles `#F × 3`, the normals
-    are `corner.reshape(-1, 3, 3)`.
+    `weight="angle"` is what Blender takes, and what those expect who bake with MikkTSpace. Of triangles `#F × 3`, the
+    normals are `corner.reshape(-1, 3, 3)`.
 
     faces
         What is cut, or a `Cut`, for normals as positions move; its vertices are meant by `vertices`.

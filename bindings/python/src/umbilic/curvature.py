@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from ctypes import pointer
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -53,7 +53,9 @@ class Curvatures(Result):
 
     k1: FloatArray  #: The larger principal curvature, `#V`, 1/length.
     k2: FloatArray  #: The smaller principal curvature, `#V`, 1/length.
-    direction1: FloatArray  #: The unit tangent direction of k1, `#V × 3`; the first of its largest components is positive.
+    direction1: (
+        FloatArray  #: The unit tangent direction of k1, `#V × 3`; the first of its largest components is positive.
+    )
     direction2: FloatArray  #: The unit tangent direction of k2, `#V × 3`: normal × direction1.
     mean: FloatArray  #: H = (k1 + k2) / 2, `#V`, 1/length.
     gaussian: FloatArray  #: K = k1 k2, `#V`, 1/length².
@@ -82,14 +84,14 @@ class CurvatureOptions:
     rings: int = 0
     normal_degree: int = 0
     normal_rings: int = 0
-    model: Optional[AdaptiveModel] = None
-    normals: Optional[ArrayLike] = None
+    model: AdaptiveModel | None = None
+    normals: ArrayLike | None = None
 
 
 class Prepared:
     """The struct of such options, with what it points into: held while the library reads it."""
 
-    def __init__(self, options: CurvatureOptions, run: Optional[Run] = None) -> None:
+    def __init__(self, options: CurvatureOptions, run: Run | None = None) -> None:
         self.normals = None if options.normals is None else arrays.vectors(options.normals, "normals")
         self.model = struct_of(options.model)
         self.struct = native.sized(
@@ -110,35 +112,35 @@ class Prepared:
 
 def curvatures(
     positions: ArrayLike,
-    faces: Union[Topology, Faces],
+    faces: Topology | Faces,
     *,
     method: Method = "adaptive-jet",
     section: Section = "symmetric-parabola",
     weight: Weight = "conformal",
-    normals: Optional[ArrayLike] = None,
+    normals: ArrayLike | None = None,
     radius: float = 0.0,
     degree: int = 0,
     rings: int = 0,
     normal_degree: int = 0,
     normal_rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    vertices: Optional[ArrayLike] = None,
-    outputs: Optional[Sequence[CurvatureOutput]] = None,
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    model: AdaptiveModel | None = None,
+    vertices: ArrayLike | None = None,
+    outputs: Sequence[CurvatureOutput] | None = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Curvatures:
     """Curvatures at the vertices of a mesh.
 
-    A sphere of radius r whose faces run counter-clockwise seen from outside has k1 = k2 = H = 1/r, K = 1/r²; k1 ≥ k2. Never
-    NaN or infinite; the same bits for any number of threads, any vectors and any list of vertices.
+    A sphere of radius r whose faces run counter-clockwise seen from outside has k1 = k2 = H = 1/r, K = 1/r²; k1 ≥ k2.
+    Never NaN or infinite; the same bits for any number of threads, any vectors and any list of vertices.
 
     positions, faces, vertices, out, threads, simd, progress
         See `vertex_normals`.
     method
-        How curvatures are estimated. What each has to give stands in the header, at `umb_curvature_method`; what it has not
-        is refused with the status `NOT_APPLICABLE`.
+        How curvatures are estimated. What each has to give stands in the header, at `umb_curvature_method`; what it has
+        not is refused with the status `NOT_APPLICABLE`.
     section
         The formula of sections, for "least-squares", "taubin" and "watanabe".
     weight, normal_degree, normal_rings
@@ -146,7 +148,8 @@ def curvatures(
     normals
         Vertex normals of yours instead, `#V × 3`, of any length, on the side from which faces run counter-clockwise.
     radius
-        For "normal-cycle" and "corrected-measure", that of a ball around the vertex instead of rings, in the mesh's unit.
+        For "normal-cycle" and "corrected-measure", that of a ball around the vertex instead of rings, in the mesh's
+        unit.
     degree
         Of jets, 2 to 4; 0 for 3.
     rings
@@ -154,8 +157,8 @@ def curvatures(
     model
         What "adaptive-jet", as method or as weight, knows of the mesh; None to learn it from all positions.
     outputs
-        What to compute; None for k1, k2, directions and status, as far as the method has them ("angle-defect": gaussian,
-        integrated_gaussian and status).
+        What to compute; None for k1, k2, directions and status, as far as the method has them ("angle-defect":
+        gaussian, integrated_gaussian and status).
 
     >>> import umbilic
     >>> positions, faces = umbilic.examples.sphere(3, radius=2)
@@ -171,9 +174,7 @@ def curvatures(
     count = topology.vertex_count
     run = Run(threads, simd, progress, listed)
     options = Prepared(
-        CurvatureOptions(
-            method, section, weight, radius, degree, rings, normal_degree, normal_rings, model, normals
-        ),
+        CurvatureOptions(method, section, weight, radius, degree, rings, normal_degree, normal_rings, model, normals),
         run,
     )
     shapes = {name: (count, 3) if name in _VECTORS else (count,) for name in _OUTPUTS}

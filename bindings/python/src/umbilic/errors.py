@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Optional
 
 
 class Status(IntEnum):
@@ -31,8 +30,8 @@ class Status(IntEnum):
 class Error(Exception):
     """The library refused a call, or could not carry it out.
 
-    `status` is a number of `Status`; `element` the offending corner, face, vertex or value, as the message says, or None.
-    What this package itself refuses (shapes, types, unknown names) is a plain TypeError or ValueError.
+    `status` is a number of `Status`; `element` the offending corner, face, vertex or value, as the message says, or
+    None. What this package itself refuses (shapes, types, unknown names) is a plain TypeError or ValueError.
 
     >>> import umbilic
     >>> try:
@@ -43,9 +42,9 @@ class Error(Exception):
     """
 
     status: int
-    element: Optional[int]
+    element: int | None
 
-    def __init__(self, message: str, status: int, element: Optional[int] = None) -> None:
+    def __init__(self, message: str, status: int, element: int | None = None) -> None:
         # All of them, so that a pickle holds all of them.
         super().__init__(message, status, element)
         self.status = Status(status) if status in Status.__members__.values() else status
@@ -67,7 +66,7 @@ class OutOfMemory(Error, MemoryError):
     """No memory for a buffer."""
 
 
-def from_native(message: str, status: int, element: Optional[int]) -> Error:
+def from_native(message: str, status: int, element: int | None) -> Error:
     if status == Status.INDEX_OUT_OF_RANGE:
         return IndexOutOfRange(message, status, element)
     if status == Status.OUT_OF_MEMORY:

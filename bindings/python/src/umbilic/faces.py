@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import chain
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -28,7 +28,7 @@ class Polygons(NamedTuple):
     offsets: NDArray[Any]  #: `#F + 1`, from 0 to `#C`.
 
     @classmethod
-    def from_cells(cls, cells: ArrayLike) -> "Polygons":
+    def from_cells(cls, cells: ArrayLike) -> Polygons:
         """Of an array as VTK used to have them: the number of corners of a face, the corners, the next number …"""
         array = numpy.asarray(cells)
         if array.ndim != 1 or array.dtype.kind not in "iu":
@@ -55,12 +55,13 @@ _KINDS = {"uint32": 0, "int32": 1, "uint64": 2, "int64": 2}  # UMB_INDEX_
 
 
 class FaceArrays:
-    """Faces in arrays that the library can read; a signed index of 64 bits is read as an unsigned one, and so out of range
+    """Faces in arrays that the library can read; a signed index of 64 bits is read as an unsigned one, and so out of
+    range
     if it is negative."""
 
     def __init__(self, faces: Any) -> None:
         self.indices: NDArray[Any]
-        self.offsets: Optional[NDArray[Any]] = None
+        self.offsets: NDArray[Any] | None = None
         self.arity = 0
         if isinstance(faces, Polygons):
             self.indices, self.offsets = _alike(_integers(faces.indices, 1), _integers(faces.offsets, 1))
@@ -74,9 +75,7 @@ class FaceArrays:
 
     def _take(self, faces: Any) -> None:
         """A sequence of sequences: an array if all are of one length."""
-        faces = [
-            face if isinstance(face, numpy.ndarray) and face.dtype != object else list(face) for face in faces
-        ]
+        faces = [face if isinstance(face, numpy.ndarray) and face.dtype != object else list(face) for face in faces]
         lengths = [len(face) for face in faces]
         if len(set(lengths)) == 1 and lengths[0]:
             self.indices, self.arity = _integers(numpy.asarray(faces), 2), lengths[0]
@@ -93,7 +92,7 @@ class FaceArrays:
     def count(self) -> int:
         return len(self.indices) if self.offsets is None else len(self.offsets) - 1
 
-    def shaped(self, corners: NDArray[Any]) -> Union[NDArray[Any], Polygons]:
+    def shaped(self, corners: NDArray[Any]) -> NDArray[Any] | Polygons:
         """Faces like these with other corners."""
         if self.offsets is None:
             return corners.reshape(-1, self.arity)

@@ -1,12 +1,12 @@
 """Meshes of meshio: results go to point data and cell data.
 
-Points and results are not copied, nor is a block of faces that is the only one; several blocks are joined. Faces are the
-blocks of triangles, quads and polygons; vertices and lines are left alone. meshio is not imported.
+Points and results are not copied, nor is a block of faces that is the only one; several blocks are joined. Faces are
+the blocks of triangles, quads and polygons; vertices and lines are left alone. meshio is not imported.
 """
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any
 
 import numpy
 
@@ -50,7 +50,7 @@ def topology(mesh: Any) -> Topology:
     return Topology(faces(mesh), len(mesh.points))
 
 
-def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> VertexNormals:
+def vertex_normals(mesh: Any, topology: Topology | None = None, **options: Any) -> VertexNormals:
     """Computes normals, to the point data "Normals"; options as of `umbilic.vertex_normals`.
 
     >>> import meshio, umbilic
@@ -65,7 +65,7 @@ def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: An
     return found
 
 
-def curvatures(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> Curvatures:
+def curvatures(mesh: Any, topology: Topology | None = None, **options: Any) -> Curvatures:
     """Computes curvatures, to the point data by the names of outputs; options as of `umbilic.curvatures`.
 
     >>> import meshio, umbilic

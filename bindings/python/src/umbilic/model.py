@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -20,9 +20,9 @@ class AdaptiveModel:
     """What adaptive jets know of a mesh before they look at a vertex: how noisy its positions are and how smooth its
     surface.
 
-    `learn_model` makes one, and the argument `model` of normals, curvatures and sections takes it: for a list of vertices,
-    a part of the mesh or a later frame. `dataclasses.replace(model, noise=model.noise / 2)` makes one for less noise.
-    """
+    `learn_model` makes one, and the argument `model` of normals, curvatures and sections takes it: for a list of
+    vertices, a part of the mesh or a later frame. `dataclasses.replace(model, noise=model.noise / 2)` makes one for
+    less noise. """
 
     edge_length: float  #: The median over the vertices of the mean length of their edges, in the mesh's unit.
     noise: float  #: The standard deviation of positions along the normal, in the mesh's unit.
@@ -50,7 +50,7 @@ class AdaptiveModel:
         )
 
 
-def struct_of(model: Optional[AdaptiveModel]) -> Any:
+def struct_of(model: AdaptiveModel | None) -> Any:
     """The struct of a model, or none; the caller holds it while the library reads it."""
     if model is None:
         return None
@@ -61,11 +61,11 @@ def struct_of(model: Optional[AdaptiveModel]) -> Any:
 
 def learn_model(
     positions: ArrayLike,
-    faces: Union[Topology, Faces],
+    faces: Topology | Faces,
     *,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> AdaptiveModel:
     """Learns what adaptive jets use of a mesh, from a sample of all its vertices.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import pointer
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -37,9 +37,7 @@ class FaceNormals(Result):
     status: StatusArray  #: 0 or `VertexStatus.DEGENERATE`, `#F`.
 
 
-def normal_options(
-    weight: str, degree: int, rings: int, model: Any, run: Optional[Run] = None
-) -> Any:
+def normal_options(weight: str, degree: int, rings: int, model: Any, run: Run | None = None) -> Any:
     """The struct; `model` is one too, or None."""
     return native.sized(
         native.NormalOptions,
@@ -53,26 +51,26 @@ def normal_options(
 
 def vertex_normals(
     positions: ArrayLike,
-    faces: Union[Topology, Faces],
+    faces: Topology | Faces,
     *,
     weight: Weight = "conformal",
     degree: int = 0,
     rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    vertices: Optional[ArrayLike] = None,
+    model: AdaptiveModel | None = None,
+    vertices: ArrayLike | None = None,
     outputs: Sequence[NormalOutput] = ("normal", "status"),
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> VertexNormals:
     """Normals of the vertices of a mesh, on the side from which faces run counter-clockwise.
 
     Never NaN or infinite, and the same bits for any number of threads, any vectors and any list of vertices.
 
     positions
-        `#V × 3`, finite. Arrays of float32 and float64 are read in place, whatever lies between their rows; other layouts and
-        types are copied, to float64 if they are not float32.
+        `#V × 3`, finite. Arrays of float32 and float64 are read in place, whatever lies between their rows; other
+        layouts and types are copied, to float64 if they are not float32.
     faces
         A `Topology`, or what makes one.
     weight
@@ -88,16 +86,16 @@ def vertex_normals(
     outputs
         What to compute: "normal", "sum", "status".
     out
-        Arrays to write, by the name of the output; they count as asked for. float32 or float64 (uint8 for "status"), with
-        rows that are contiguous: columns of a larger array will do, so long as no byte is shared with another array.
-        Arrays that are not given are new, and of the positions' type.
+        Arrays to write, by the name of the output; they count as asked for. float32 or float64 (uint8 for "status"),
+        with rows that are contiguous: columns of a larger array will do, so long as no byte is shared with another
+        array. Arrays that are not given are new, and of the positions' type.
     threads
         0 for as many as pay, 1 for the calling one alone.
     simd
         The widest vectors to use.
     progress
-        Called now and then with the fraction done, on the calling thread. What it raises ends the call and is raised by it, as
-        is a KeyboardInterrupt, with or without a callback; arrays in `out` are then written in part.
+        Called now and then with the fraction done, on the calling thread. What it raises ends the call and is raised by
+        it, as is a KeyboardInterrupt, with or without a callback; arrays in `out` are then written in part.
 
     >>> import numpy, umbilic
     >>> positions, faces = umbilic.examples.sphere(2)
@@ -123,10 +121,10 @@ def face_normals(
     faces: Faces,
     *,
     outputs: Sequence[FaceOutput] = ("normal", "status"),
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> FaceNormals:
     """Unit vectors along each face's area vector: right for triangles, concave and non-planar polygons, collinear and
     repeated corners. Double precision, rounded to the type of the output.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, Optional
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -35,10 +35,10 @@ def polyline_curvatures(
     *,
     closed: bool = False,
     outputs: Sequence[PolylineOutput] = _OUTPUTS,
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> PolylineCurvatures:
     """Four curvatures at each point of a polyline, `#V`, 1/length, each from the point and its two neighbours.
 

@@ -6,7 +6,7 @@ Points, connectivity, offsets and results are not copied, and polygons stay poly
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, Optional
+from typing import Any
 
 import numpy
 
@@ -37,7 +37,7 @@ def topology(mesh: Any) -> Topology:
     return Topology(faces(mesh), mesh.n_points)
 
 
-def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> VertexNormals:
+def vertex_normals(mesh: Any, topology: Topology | None = None, **options: Any) -> VertexNormals:
     """Computes normals, to the active normals of the point data; options as of `umbilic.vertex_normals`.
 
     >>> import pyvista, umbilic
@@ -47,14 +47,12 @@ def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: An
     >>> mesh.point_data.active_normals_name
     'Normals'
     """
-    found = _normals.vertex_normals(
-        attribute(mesh, "points", "pyvista"), chosen(topology, faces, mesh), **options
-    )
+    found = _normals.vertex_normals(attribute(mesh, "points", "pyvista"), chosen(topology, faces, mesh), **options)
     mesh.point_data.active_normals = found.normal
     return found
 
 
-def curvatures(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> Curvatures:
+def curvatures(mesh: Any, topology: Topology | None = None, **options: Any) -> Curvatures:
     """Computes curvatures, to the point data by the names of outputs; options as of `umbilic.curvatures`.
 
     >>> import pyvista, umbilic
@@ -63,9 +61,7 @@ def curvatures(mesh: Any, topology: Optional[Topology] = None, **options: Any) -
     >>> print(f"{mesh['mean'].mean():.3f}")
     0.500
     """
-    found = _curvature.curvatures(
-        attribute(mesh, "points", "pyvista"), chosen(topology, faces, mesh), **options
-    )
+    found = _curvature.curvatures(attribute(mesh, "points", "pyvista"), chosen(topology, faces, mesh), **options)
     for name, array in vars(found).items():
         mesh.point_data[name] = array
     return found

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from ctypes import pointer
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -37,16 +37,16 @@ def edge_sections(
     *,
     section: Section = "symmetric-parabola",
     weight: Weight = "conformal",
-    normals: Optional[ArrayLike] = None,
+    normals: ArrayLike | None = None,
     normal_degree: int = 0,
     normal_rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    vertices: Optional[ArrayLike] = None,
+    model: AdaptiveModel | None = None,
+    vertices: ArrayLike | None = None,
     outputs: Sequence[SectionOutput] = ("curvature", "status"),
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Sections:
     """The curvature of the section along every edge of every vertex's ring, with the vertex normal.
 
@@ -70,22 +70,22 @@ def edge_sections(
 
 def direction_sections(
     positions: ArrayLike,
-    faces: Union[Topology, Faces],
+    faces: Topology | Faces,
     directions: ArrayLike,
     *,
     shared: bool = False,
     section: Section = "symmetric-parabola",
     weight: Weight = "conformal",
-    normals: Optional[ArrayLike] = None,
+    normals: ArrayLike | None = None,
     normal_degree: int = 0,
     normal_rings: int = 0,
-    model: Optional[AdaptiveModel] = None,
-    vertices: Optional[ArrayLike] = None,
+    model: AdaptiveModel | None = None,
+    vertices: ArrayLike | None = None,
     outputs: Sequence[SectionOutput] = ("curvature", "status"),
-    out: Optional[Mapping[str, NDArray[Any]]] = None,
+    out: Mapping[str, NDArray[Any]] | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Sections:
     """Curvatures of normal sections in given directions of any length, each projected onto the tangent plane.
 
@@ -116,11 +116,11 @@ class _Common:
 
     section: Section
     weight: Weight
-    normals: Optional[ArrayLike]
+    normals: ArrayLike | None
     normal_degree: int
     normal_rings: int
-    model: Optional[AdaptiveModel]
-    vertices: Optional[ArrayLike]
+    model: AdaptiveModel | None
+    vertices: ArrayLike | None
 
     def compute(
         self,
@@ -129,9 +129,9 @@ class _Common:
         topology: Topology,
         shape: tuple[int, ...],
         outputs: Sequence[SectionOutput],
-        out: Optional[Mapping[str, NDArray[Any]]],
-        run_options: tuple[int, Simd, Optional[Progress]],
-        directions: Optional[FloatArray] = None,
+        out: Mapping[str, NDArray[Any]] | None,
+        run_options: tuple[int, Simd, Progress | None],
+        directions: FloatArray | None = None,
         shared: bool = False,
     ) -> Sections:
         xyz = arrays.vectors(positions, "positions")
@@ -166,5 +166,7 @@ def _flat(array: NDArray[Any], name: str, shape: tuple[int, ...]) -> NDArray[Any
     if len(shape) == 1 or not isinstance(array, numpy.ndarray):
         return array
     if array.shape != shape or not array.flags.c_contiguous:
-        raise ValueError(f"out[{name!r}] has the shape {array.shape} and strides {array.strides}, not {shape}, contiguous")
+        raise ValueError(
+            f"out[{name!r}] has the shape {array.shape} and strides {array.strides}, not {shape}, contiguous"
+        )
     return array.reshape(-1)

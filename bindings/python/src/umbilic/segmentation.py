@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ctypes import byref, c_void_p, pointer
 from types import TracebackType
-from typing import Any, Optional
+from typing import Any
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -26,7 +26,7 @@ class Segmentation:
     """
 
     def __init__(self, handle: native.Handle, faces: FaceArrays) -> None:
-        self._held: Optional[native.Handle] = handle
+        self._held: native.Handle | None = handle
         self._faces = faces
         #: The number of segments.
         self.count: int = native.library.umb_segmentation_count(handle)
@@ -49,12 +49,12 @@ class Segmentation:
         """Frees the memory, once no call and no array needs it any more. More than once is fine."""
         self._held = None
 
-    def __enter__(self) -> "Segmentation":
+    def __enter__(self) -> Segmentation:
         self.handle  # refuses what is closed
         return self
 
     def __exit__(
-        self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
 
@@ -73,7 +73,7 @@ class Segmentation:
 
     @property
     def boundary_edges(self) -> IndexArray:
-        """The edges between segments, `#E × 2`, each once, as its lower and its higher vertex, ascending; read-only."""
+        """The edges between segments, `#E × 2`, each once, the lower vertex first, ascending; read-only."""
         handle = self.handle
         count = native.library.umb_segmentation_boundary_edge_count(handle)
         data = native.library.umb_segmentation_boundary_edges(handle)
@@ -94,7 +94,7 @@ class Segmentation:
         return areas
 
     def means(self, positions: ArrayLike, values: ArrayLike, at: Location = "vertices") -> NDArray[numpy.float64]:
-        """The mean over each segment of numbers at vertices, `#V`, or at faces, `#F`, weighted by the area of the faces."""
+        """The mean over each segment of numbers at vertices, `#V`, or at faces, `#F`, weighted by area."""
         xyz, given = arrays.vectors(positions, "positions"), arrays.numbers(values, "values")
         means = numpy.empty(self.count)
         native.call(
@@ -113,12 +113,12 @@ def segment_features(
     positions: ArrayLike,
     faces: Faces,
     *,
-    angle: Optional[float] = None,
-    edges: Optional[ArrayLike] = None,
-    groups: Optional[ArrayLike] = None,
+    angle: float | None = None,
+    edges: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Segmentation:
     """The parts that creases bound: faces that meet are in one segment unless the edge between them is a crease.
 
@@ -141,21 +141,21 @@ def segment_watershed(
     positions: ArrayLike,
     faces: Faces,
     *,
-    height: Optional[ArrayLike] = None,
+    height: ArrayLike | None = None,
     at: Location = "vertices",
-    depth: Optional[float] = None,
-    curvature: Optional[CurvatureOptions] = None,
+    depth: float | None = None,
+    curvature: CurvatureOptions | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Segmentation:
     """The basins of a height over the faces, merged by depth as they meet.
 
     height, at
         Low inside segments, high between them, at "vertices" (`#V`) or at "faces" (`#F`); None for curvedness.
     depth
-        Basins less deep than this are merged with the neighbour over the lowest pass, in the unit of the height. None: of a
-        given height none, of curvedness those of less than four times `shape_tolerance`. 0: none.
+        Basins less deep than this are merged with the neighbour over the lowest pass, in the unit of the height. None:
+        of a given height none, of curvedness those of less than four times `shape_tolerance`. 0: none.
     curvature
         How curvedness is computed; None for adaptive jets.
 
@@ -185,17 +185,17 @@ def segment_regions(
     positions: ArrayLike,
     faces: Faces,
     *,
-    smallest_share: Optional[float] = None,
+    smallest_share: float | None = None,
     smallest_faces: int = 0,
-    tolerance: Optional[float] = None,
-    classes: Optional[ArrayLike] = None,
-    angle: Optional[float] = None,
-    edges: Optional[ArrayLike] = None,
-    groups: Optional[ArrayLike] = None,
-    curvature: Optional[CurvatureOptions] = None,
+    tolerance: float | None = None,
+    classes: ArrayLike | None = None,
+    angle: float | None = None,
+    edges: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
+    curvature: CurvatureOptions | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> Segmentation:
     """Regions of one shape: flat, cylindrical, spherical and saddle parts, whether creases bound them or not.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ctypes import byref, c_double, pointer
-from typing import Optional
 
 import numpy
 from numpy.typing import ArrayLike
@@ -33,12 +32,12 @@ def shape_classes(
     k1: ArrayLike,
     k2: ArrayLike,
     *,
-    positions: Optional[ArrayLike] = None,
-    tolerance: Optional[float] = None,
-    status: Optional[ArrayLike] = None,
+    positions: ArrayLike | None = None,
+    tolerance: float | None = None,
+    status: ArrayLike | None = None,
     threads: int = 0,
     simd: Simd = "best",
-    progress: Optional[Progress] = None,
+    progress: Progress | None = None,
 ) -> StatusArray:
     """The shape class of each vertex, or face: a number of `Shape`, `#V` of uint8.
 

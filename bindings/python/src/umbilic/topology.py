@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from ctypes import byref, c_size_t, c_void_p
 from types import TracebackType
-from typing import NamedTuple, Optional, Union
+from typing import NamedTuple
 
 import numpy
 
@@ -55,11 +55,12 @@ class Topology:
     Built from faces alone, so it serves however positions move: every function of this package that takes faces takes
     it instead. It may be used by any number of threads at once, and is freed with the last reference, or by `close`.
 
-    Faces are joined across an edge only where it has exactly two and they run through it in opposite directions. No mesh
-    is refused for its shape.
+    Faces are joined across an edge only where it has exactly two and they run through it in opposite directions. No
+    mesh is refused for its shape.
 
     faces
-        An array `#F × n` (triangles, quads …), `Polygons`, or a sequence of sequences of vertices, counter-clockwise seen
+        An array `#F × n` (triangles, quads …), `Polygons`, or a sequence of sequences of vertices, counter-clockwise
+        seen
         from outside. Contiguous arrays of uint32, int32, uint64 and int64 are read in place.
     vertex_count
         The number of vertices, isolated ones included.
@@ -82,13 +83,13 @@ class Topology:
         self._take(native.Handle(pointer.value, native.library.umb_topology_destroy))
 
     @classmethod
-    def _of(cls, handle: native.Handle) -> "Topology":
+    def _of(cls, handle: native.Handle) -> Topology:
         self = cls.__new__(cls)
         self._take(handle)
         return self
 
     def _take(self, handle: native.Handle) -> None:
-        self._held: Optional[native.Handle] = handle
+        self._held: native.Handle | None = handle
         #: The number of vertices.
         self.vertex_count: int = native.library.umb_topology_vertex_count(handle)
         #: The number of faces, ignored ones included.
@@ -110,12 +111,12 @@ class Topology:
         """Frees the memory, once no call and no array needs it any more. More than once is fine."""
         self._held = None
 
-    def __enter__(self) -> "Topology":
+    def __enter__(self) -> Topology:
         self.handle  # refuses what is closed
         return self
 
     def __exit__(
-        self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
 
@@ -183,7 +184,7 @@ class Topology:
         return TopologyStats(**{field.name: getattr(stats, field.name) for field in dataclasses.fields(TopologyStats)})
 
 
-def topology_of(faces: Union[Topology, Faces], vertex_count: int, threads: int, simd: Simd) -> Topology:
+def topology_of(faces: Topology | Faces, vertex_count: int, threads: int, simd: Simd) -> Topology:
     """The topology given, or one for the call."""
     if isinstance(faces, Topology):
         return faces

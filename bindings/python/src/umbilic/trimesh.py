@@ -5,7 +5,7 @@ Positions, faces and results are not copied. trimesh is not imported: whatever h
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any
 
 from numpy.typing import NDArray
 
@@ -29,7 +29,7 @@ def topology(mesh: Any) -> Topology:
     return Topology(faces(mesh), len(mesh.vertices))
 
 
-def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> VertexNormals:
+def vertex_normals(mesh: Any, topology: Topology | None = None, **options: Any) -> VertexNormals:
     """Computes normals, to `mesh.vertex_normals`; options as of `umbilic.vertex_normals`.
 
     >>> import trimesh, umbilic
@@ -38,14 +38,12 @@ def vertex_normals(mesh: Any, topology: Optional[Topology] = None, **options: An
     >>> mesh.vertex_normals is found.normal
     True
     """
-    found = _normals.vertex_normals(
-        attribute(mesh, "vertices", "trimesh"), chosen(topology, faces, mesh), **options
-    )
+    found = _normals.vertex_normals(attribute(mesh, "vertices", "trimesh"), chosen(topology, faces, mesh), **options)
     mesh.vertex_normals = found.normal
     return found
 
 
-def curvatures(mesh: Any, topology: Optional[Topology] = None, **options: Any) -> Curvatures:
+def curvatures(mesh: Any, topology: Topology | None = None, **options: Any) -> Curvatures:
     """Computes curvatures, to `mesh.vertex_attributes` by the names of outputs; options as of `umbilic.curvatures`.
 
     >>> import trimesh, umbilic
@@ -54,9 +52,7 @@ def curvatures(mesh: Any, topology: Optional[Topology] = None, **options: Any) -
     >>> print(f"{mesh.vertex_attributes['gaussian'].mean():.3f}")
     0.250
     """
-    found = _curvature.curvatures(
-        attribute(mesh, "vertices", "trimesh"), chosen(topology, faces, mesh), **options
-    )
+    found = _curvature.curvatures(attribute(mesh, "vertices", "trimesh"), chosen(topology, faces, mesh), **options)
     mesh.vertex_attributes.update(vars(found))
     return found
 
