@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_void_p
-from types import TracebackType
 from typing import Any, Literal
 
 import numpy
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _native as native
 from ._arrays import FloatArray, IndexArray, Outputs, Result, StatusArray
+from ._owner import Owner
 from ._run import Progress, Run, topology_options
 from .faces import FaceArrays, Faces, Polygons
 from .model import AdaptiveModel, struct_of
@@ -47,7 +47,7 @@ class CreaseArrays:
         )
 
 
-class Cut:
+class Cut(Owner):
     """A mesh cut open along its creases: a vertex for each run of faces around a vertex that no crease divides.
 
     Whatever is computed over its `topology` stops at creases: normals become corner normals, and fits and curvatures of
@@ -74,6 +74,8 @@ class Cut:
     0.0
     """
 
+    _name = "cut mesh"
+
     def __init__(
         self,
         positions: ArrayLike,
@@ -93,38 +95,13 @@ class Cut:
             native.call(
                 native.library.umb_cut_create, given.view(), arrays.points(xyz), creases.struct, options, byref(pointer)
             )
-        self._held: native.Handle | None = native.Handle(pointer.value, native.library.umb_cut_destroy)
+        self._held = native.Handle(pointer.value, native.library.umb_cut_destroy)
         self._faces = given
         self._original_count = len(xyz)
         #: The number of vertices of the cut mesh.
         self.vertex_count: int = native.library.umb_cut_vertex_count(self._held)
         #: The number of corners, those of ignored faces included.
         self.corner_count: int = native.library.umb_cut_corner_count(self._held)
-
-    @property
-    def handle(self) -> native.Handle:
-        """For calls of this package."""
-        held = self._held
-        if held is None:
-            raise ValueError("the cut mesh is closed")
-        return held
-
-    @property
-    def closed(self) -> bool:
-        return self._held is None
-
-    def close(self) -> None:
-        """Frees the memory, once no call, no array and no topology needs it any more. More than once is fine."""
-        self._held = None
-
-    def __enter__(self) -> Cut:
-        self.handle  # refuses what is closed
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def __repr__(self) -> str:
         return f"Cut({self.vertex_count} vertices, {self.corner_count} corners{', closed' if self.closed else ''})"

@@ -55,9 +55,10 @@ _KINDS = {"uint32": 0, "int32": 1, "uint64": 2, "int64": 2}  # UMB_INDEX_
 
 
 class FaceArrays:
-    """Faces in arrays that the library can read; a signed index of 64 bits is read as an unsigned one, and so out of
-    range
-    if it is negative."""
+    """Faces in arrays that the library can read.
+
+    Signed indices of 64 bits are read as unsigned ones: those that are negative are then out of range.
+    """
 
     def __init__(self, faces: Any) -> None:
         self.indices: NDArray[Any]

@@ -22,7 +22,7 @@ class AdaptiveModel:
 
     `learn_model` makes one, and the argument `model` of normals, curvatures and sections takes it: for a list of
     vertices, a part of the mesh or a later frame. `dataclasses.replace(model, noise=model.noise / 2)` makes one for
-    less noise. """
+    less noise."""
 
     edge_length: float  #: The median over the vertices of the mean length of their edges, in the mesh's unit.
     noise: float  #: The standard deviation of positions along the normal, in the mesh's unit.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ctypes import byref, c_void_p, pointer
-from types import TracebackType
 from typing import Any
 
 import numpy
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _native as native
 from ._arrays import IndexArray
+from ._owner import Owner
 from ._run import Progress, Run
 from .corners import CreaseArrays
 from .curvature import CurvatureOptions, Prepared
@@ -19,44 +19,21 @@ from .faces import FaceArrays, Faces
 from .names import Location, Simd
 
 
-class Segmentation:
+class Segmentation(Owner):
     """A label for each face. Labels are numbers from 0, in the order of the smallest face of each segment.
 
     It may be used by any number of threads at once, and is freed with the last reference, or by `close`.
     """
 
+    _name = "segmentation"
+
     def __init__(self, handle: native.Handle, faces: FaceArrays) -> None:
-        self._held: native.Handle | None = handle
+        self._held = handle
         self._faces = faces
         #: The number of segments.
         self.count: int = native.library.umb_segmentation_count(handle)
         #: The number of faces, ignored ones included.
         self.face_count: int = native.library.umb_segmentation_face_count(handle)
-
-    @property
-    def handle(self) -> native.Handle:
-        """For calls of this package."""
-        held = self._held
-        if held is None:
-            raise ValueError("the segmentation is closed")
-        return held
-
-    @property
-    def closed(self) -> bool:
-        return self._held is None
-
-    def close(self) -> None:
-        """Frees the memory, once no call and no array needs it any more. More than once is fine."""
-        self._held = None
-
-    def __enter__(self) -> Segmentation:
-        self.handle  # refuses what is closed
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def __len__(self) -> int:
         return self.count

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from ctypes import byref, c_size_t, c_void_p
-from types import TracebackType
 from typing import NamedTuple
 
 import numpy
@@ -12,6 +11,7 @@ import numpy
 from . import _arrays as arrays
 from . import _native as native
 from ._arrays import IndexArray, StatusArray
+from ._owner import Owner
 from ._run import topology_options
 from .faces import FaceArrays, Faces
 from .names import Simd
@@ -49,19 +49,18 @@ class Fan(NamedTuple):
     closed: bool  #: Whether the last face meets the first.
 
 
-class Topology:
+class Topology(Owner):
     """The one-rings of a mesh.
 
-    Built from faces alone, so it serves however positions move: every function of this package that takes faces takes
-    it instead. It may be used by any number of threads at once, and is freed with the last reference, or by `close`.
+    Built from faces alone, so it serves however positions move: functions of vertices take it in place of faces. It may
+    be used by any number of threads at once, and is freed with the last reference, or by `close`.
 
     Faces are joined across an edge only where it has exactly two and they run through it in opposite directions. No
     mesh is refused for its shape.
 
     faces
         An array `#F × n` (triangles, quads …), `Polygons`, or a sequence of sequences of vertices, counter-clockwise
-        seen
-        from outside. Contiguous arrays of uint32, int32, uint64 and int64 are read in place.
+        seen from outside. Contiguous arrays of uint32, int32, uint64 and int64 are read in place.
     vertex_count
         The number of vertices, isolated ones included.
     threads, simd
@@ -72,6 +71,8 @@ class Topology:
     ...     print(mesh, mesh.valence(0), mesh.ring(0), mesh.stats().boundary_loops)
     Topology(4 vertices, 2 faces) 3 [1 2 3] 1
     """
+
+    _name = "topology"
 
     def __init__(self, faces: Faces, vertex_count: int, *, threads: int = 0, simd: Simd = "best") -> None:
         given = FaceArrays(faces)
@@ -89,36 +90,11 @@ class Topology:
         return self
 
     def _take(self, handle: native.Handle) -> None:
-        self._held: native.Handle | None = handle
+        self._held = handle
         #: The number of vertices.
         self.vertex_count: int = native.library.umb_topology_vertex_count(handle)
         #: The number of faces, ignored ones included.
         self.face_count: int = native.library.umb_topology_face_count(handle)
-
-    @property
-    def handle(self) -> native.Handle:
-        """For calls of this package."""
-        held = self._held
-        if held is None:
-            raise ValueError("the topology is closed")
-        return held
-
-    @property
-    def closed(self) -> bool:
-        return self._held is None
-
-    def close(self) -> None:
-        """Frees the memory, once no call and no array needs it any more. More than once is fine."""
-        self._held = None
-
-    def __enter__(self) -> Topology:
-        self.handle  # refuses what is closed
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def __repr__(self) -> str:
         state = ", closed" if self.closed else ""
