@@ -22,7 +22,7 @@ from umbilic import _arrays as arrays
 from umbilic import _native as native
 from umbilic.faces import FaceArrays
 
-ROUNDS = 15
+ROUNDS = 25
 CURVATURES = ("k1", "k2", "direction1", "direction2")
 
 

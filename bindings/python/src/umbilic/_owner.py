@@ -11,7 +11,7 @@ Self = TypeVar("Self", bound="Owner")
 
 
 class Owner:
-    """Holds a handle until it is closed. Calls and arrays that hold it as well keep the memory as long as they need it."""
+    """Holds a handle until it is closed; calls and arrays that hold it as well keep the memory for themselves."""
 
     _name = ""
     _held: native.Handle | None
