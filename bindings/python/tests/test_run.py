@@ -100,13 +100,18 @@ class Mine(Exception):
 def test_what_progress_raises_ends_the_call_and_comes_out(lump, kind):
     raised = kind("stop", 7) if kind is umbilic.Error else kind("stop")
 
-    def stop(fraction):
-        raise raised
-
     for call in calls(*lump):
-        with pytest.raises(kind) as error:
-            call(progress=stop)
-        assert error.value is raised
+        seen = []
+        call(progress=seen.append, threads=1)
+        for last in (0, max(seen)):
+
+            def stop(fraction, last=last):
+                if fraction >= last:
+                    raise raised
+
+            with pytest.raises(kind) as error:
+                call(progress=stop, threads=1)
+            assert error.value is raised
         call()  # and leaves nothing behind
 
 

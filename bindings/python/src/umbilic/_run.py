@@ -7,7 +7,6 @@ from typing import Any, Callable
 
 from . import _native as native
 from ._arrays import IndexArray, address, unsigned
-from .errors import Error, Status
 from .names import number
 
 Progress = Callable[[float], object]
@@ -43,10 +42,10 @@ class Run:
     def call(self, function: Any, *arguments: Any) -> None:
         try:
             native.call(function, *arguments)
-        except Error as error:
-            if error.status == Status.CANCELLED and self.raised:
+        finally:
+            # Also if the wish to cancel came too late to be heard.
+            if self.raised:
                 raise self.raised[0] from None
-            raise
 
 
 def _watch(progress: Progress | None, raised: list[BaseException]) -> Generator[int, float, None]:

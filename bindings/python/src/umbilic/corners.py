@@ -29,11 +29,9 @@ class CreaseArrays:
     def __init__(
         self, angle: float | None, edges: ArrayLike | None, groups: ArrayLike | None, faces: FaceArrays
     ) -> None:
-        self.edges = None if edges is None else arrays.indices(edges, "edges").reshape(-1)
-        if edges is not None and numpy.ndim(edges) != 2 and numpy.size(edges):
-            raise ValueError(f"edges have the shape {numpy.shape(edges)}, not (n, 2)")
-        if edges is not None and numpy.size(edges) and numpy.shape(edges)[1] != 2:
-            raise ValueError(f"edges have the shape {numpy.shape(edges)}, not (n, 2)")
+        self.edges = None if edges is None else arrays.indices(edges, "edges")
+        if self.edges is not None and self.edges.size and (self.edges.ndim != 2 or self.edges.shape[1] != 2):
+            raise ValueError(f"edges have the shape {self.edges.shape}, not (n, 2)")
         self.groups = None if groups is None else arrays.index_list(groups, "groups")
         if self.groups is not None and len(self.groups) != faces.count:
             raise ValueError(f"there are {len(self.groups)} groups, but {faces.count} faces")
@@ -41,7 +39,7 @@ class CreaseArrays:
             native.Creases,
             angle=arrays.limit(angle),
             edges=None if self.edges is None else arrays.address(self.edges),
-            edge_count=0 if self.edges is None else len(self.edges) // 2,
+            edge_count=0 if self.edges is None else len(self.edges),
             groups=None if self.groups is None else arrays.address(self.groups),
             group_count=0 if self.groups is None else len(self.groups),
         )

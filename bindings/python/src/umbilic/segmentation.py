@@ -216,6 +216,9 @@ def segment_regions(
 
 def _segment(function: Any, faces: FaceArrays, points: Any, options: Any, run: Run) -> Segmentation:
     made = c_void_p()
-    with faces.explained():
-        run.call(function, faces.view(), points, options, byref(made))
-    return Segmentation(native.Handle(made.value, native.library.umb_segmentation_destroy), faces)
+    try:
+        with faces.explained():
+            run.call(function, faces.view(), points, options, byref(made))
+    finally:  # a callback may have raised when all was done
+        handle = native.Handle(made.value, native.library.umb_segmentation_destroy)
+    return Segmentation(handle, faces)
