@@ -27,11 +27,12 @@ PROGRAM_DATA := target/program
 
 help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
-	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
+	@echo "make test                 every test: Rust, C, C++, Python, command line, peers, packages; installs what is missing"
 	@echo "make build                the library, and the program over it"
 	@echo "make install              what is built, to PREFIX=/usr/local below DESTDIR=; make uninstall takes it away"
 	@echo "make deb                  Debian packages of what is built: target/debian"
 	@echo "make dist                 a source archive that builds offline: target/dist; make dist-check builds it"
+	@echo "make test-python          the Python package, part of make test: a wheel, its tests, examples, types and pictures"
 	@echo "make meshlab-plugin       filters for Debian's MeshLab: bindings/meshlab/README.md; make test-meshlab tests them"
 	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
 	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
@@ -89,11 +90,11 @@ demo: $(LIBRARY)
 JOBS ?= $(shell nproc)
 
 test:
-	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES)
+	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES) $(PYTHON_PACKAGES)
 	@$(MAKE) --no-print-directory --jobs=$(JOBS) --output-sync=line test-all
 	@echo "All tests passed."
 
-test-all: lint test-rust test-c test-cpp test-examples test-peers test-packages
+test-all: lint test-rust test-c test-cpp test-examples test-peers test-packages test-python
 
 # Where the toolchain came without these two, the tests run without them.
 lint:
@@ -137,9 +138,9 @@ test-examples: $(LIBRARY) $(MESHES) bench-programs | packages
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
-	$(VENV)/bin/python -B tests/peers/peers.py $(LIBRARY) $(MESHES)
-	$(VENV)/bin/python -B tests/peers/curvature.py $(LIBRARY) $(MESHES)
-	$(VENV)/bin/python -B tests/peers/corners.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B tests/peers/peers.py $(MESHES)
+	$(VENV)/bin/python -B tests/peers/curvature.py $(MESHES)
+	$(VENV)/bin/python -B tests/peers/corners.py $(MESHES)
 
 $(VENV)/done: tests/peers/requirements.txt | packages
 	$(PYTHON) -m venv $(VENV)
@@ -194,7 +195,6 @@ $(MESHLAB)/venv/done: bindings/meshlab/tests/requirements.txt | packages
 	$(PYTHON) -m venv $(MESHLAB)/venv
 	$(MESHLAB)/venv/bin/pip install --quiet --disable-pip-version-check -r bindings/meshlab/tests/requirements.txt
 	touch $@
-
 
 # ---- installation ----
 
@@ -310,6 +310,32 @@ test-packages: $(LIBRARY)
 	CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
 	tests/consumers/archive.sh
 
+# ---- the Python package ----
+
+PYTHON_TARGET := target/python
+PYTHON_VENV := $(PYTHON_TARGET)/venv
+# What pyvista draws with, off-screen.
+PYTHON_PACKAGES := gcc python3-venv libegl1 libgl1 libxrender1
+
+# The wheel holds the library as it is built, and is all that the tests see of the package.
+test-python: $(LIBRARY) $(MESHES) $(PYTHON_VENV)/done
+	rm -rf $(PYTHON_TARGET)/wheel
+	UMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY) $(PYTHON_VENV)/bin/pip wheel --quiet --disable-pip-version-check --no-deps \
+	  --wheel-dir $(PYTHON_TARGET)/wheel ./bindings/python
+	$(PYTHON_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(PYTHON_TARGET)/wheel/*.whl
+	cd bindings/python && unset PYTHONPATH UMBILIC_LIBRARY && bin=$(CURDIR)/$(PYTHON_VENV)/bin && \
+	  $$bin/python -B -m pytest -q -p no:cacheprovider tests && \
+	  $$bin/python -B -m pytest -q -p no:cacheprovider --doctest-modules --pyargs umbilic && \
+	  $$bin/mypy --cache-dir $(CURDIR)/$(PYTHON_TARGET)/mypy && \
+	  $$bin/python -B gallery.py $(CURDIR)/$(PYTHON_TARGET)/gallery $(CURDIR)/$(MESHES)/fandisk.off
+
+$(PYTHON_VENV)/done: bindings/python/tests/requirements.txt
+	@.ci/packages $(PYTHON_PACKAGES)
+	rm -rf $(PYTHON_VENV)
+	$(PYTHON) -m venv $(PYTHON_VENV)
+	$(PYTHON_VENV)/bin/pip install --quiet --disable-pip-version-check -r bindings/python/tests/requirements.txt
+	touch $@
+
 # ---- the binary interface ----
 
 # Against version 0.1.0, which is kept in tests/abi. UPDATE=1 keeps today's instead: only until 0.1.0 is released.
@@ -388,8 +414,8 @@ accuracy: $(LIBRARY) $(ACCURACY)/venv/done | packages
 	cmake -S benches/accuracy/cpp -B $(ACCURACY)/peers -DCMAKE_BUILD_TYPE=Release
 	cmake --build $(ACCURACY)/peers
 	$(ACCURACY)/venv/bin/python -B benches/accuracy/check.py
-	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py $(LIBRARY)
-	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py $(LIBRARY) --peers $(ACCURACY)/peers
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py
+	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py --peers $(ACCURACY)/peers
 
 $(ACCURACY)/venv/done: benches/accuracy/requirements.txt benches/accuracy/peers.txt | packages
 	$(PYTHON) -m venv $(ACCURACY)/venv
@@ -404,8 +430,8 @@ $(ACCURACY)/venv/done: benches/accuracy/requirements.txt benches/accuracy/peers.
 
 # Fails if a printed digit of the tables that reproduce does not come out.
 paper: $(LIBRARY) $(PAPER_VENV)/done
-	$(PAPER_VENV)/bin/python -B benches/paper/paper.py $(LIBRARY)
-	$(PAPER_VENV)/bin/python -B benches/paper/check_digits.py $(LIBRARY)
+	$(PAPER_VENV)/bin/python -B benches/paper/paper.py
+	$(PAPER_VENV)/bin/python -B benches/paper/check_digits.py
 
 $(PAPER_VENV)/done: benches/paper/requirements.txt
 	@.ci/packages python3-venv
@@ -425,7 +451,7 @@ pictures: $(LIBRARY) $(MESHES) $(VENV)/scans
 	  --size 320x280
 	target/release/umbilic segment $(MESHES)/elephant.off --by watershed --picture docs/elephant_basins.png --size 320x280 \
 	  --azimuth -10
-	$(VENV)/bin/python -B benches/scans/scans.py $(LIBRARY) $(MESHES)
+	$(VENV)/bin/python -B benches/scans/scans.py $(MESHES)
 
 $(VENV)/scans: benches/scans/requirements.txt $(VENV)/done
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check -r benches/scans/requirements.txt

@@ -10,7 +10,9 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "peers"))
-from umbilic import METHODS, WEIGHTS, Umbilic  # noqa: E402, F401
+import bindings  # noqa: E402, F401
+import umbilic  # noqa: E402
+from umbilic import METHODS, WEIGHTS  # noqa: E402, F401
 
 AVERAGES = {
     "N_CM": "conformal",
@@ -71,7 +73,8 @@ class Curvature(Own):
         options = dict(self.options)
         if self.given:
             options["normals"] = subject.given(self.given)
-        return subject.topology.curvatures(subject.sample.positions, self.method, self.wanted, threads=1, **options)
+        options |= {"method": self.method, "outputs": self.wanted, "threads": 1}
+        return vars(umbilic.curvatures(subject.sample.positions, subject.topology, **options))
 
 
 class Subject:
@@ -82,7 +85,7 @@ class Subject:
 
     def normals(self, name, options):
         if name not in self.known:
-            self.known[name], _ = self.topology.normals(self.sample.positions, threads=1, **options)
+            self.known[name], _ = umbilic.vertex_normals(self.sample.positions, self.topology, threads=1, **options)
         return self.known[name]
 
     def given(self, name):

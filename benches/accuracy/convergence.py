@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures how fast every normal and curvature of umbilic converges on smooth surfaces, and writes docs/convergence.md.
 
-    python3 benches/accuracy/convergence.py target/release/libumbilic.so [FILE]
+    python3 benches/accuracy/convergence.py [FILE]
 
 Needs numpy only. Everything is seeded: the same library writes the same file.
 """
@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import numpy
-from estimators import CURVATURES, NORMALS, Umbilic
+from estimators import CURVATURES, NORMALS, umbilic
 from meshes import KINDS, Mesh
 from report import report
 from surfaces import SURFACES
@@ -29,7 +29,7 @@ def degrees_between(a, b):
 
 
 def normal_error(topology, mesh, options):
-    normals, _ = topology.normals(mesh.positions, **options)
+    normals, _ = umbilic.vertex_normals(mesh.positions, topology, **options)
     return {"normal": rms(degrees_between(normals, mesh.exact.normal)[mesh.counted])}
 
 
@@ -54,7 +54,7 @@ def curvature_errors(topology, mesh, estimator):
     return errors
 
 
-def measure(umbilic):
+def measure():
     """Errors at each size: errors[kind, surface][estimator][quantity]. And the numbers of vertices."""
     errors, counts = {}, {}
     for kind in KINDS:
@@ -63,7 +63,7 @@ def measure(umbilic):
             for size in surface.sizes:
                 mesh = Mesh(surface, kind, size)
                 counts.setdefault(surface.name, {})[size] = len(mesh.positions)
-                with umbilic.mesh(mesh.faces, len(mesh.positions)) as topology:
+                with umbilic.Topology(mesh.faces, len(mesh.positions)) as topology:
                     found = {name: normal_error(topology, mesh, options) for name, options in NORMALS.items()}
                     found |= {name: curvature_errors(topology, mesh, each) for name, each in CURVATURES.items()}
                 for name, quantities in found.items():
@@ -73,12 +73,11 @@ def measure(umbilic):
 
 
 def main(arguments):
-    if len(arguments) not in (1, 2):
-        sys.exit("usage: convergence.py LIBRARY [FILE]")
-    umbilic = Umbilic(Path(arguments[0]).resolve())
+    if len(arguments) > 1:
+        sys.exit("usage: convergence.py [FILE]")
     docs = Path(__file__).resolve().parents[2] / "docs"
-    file = Path(arguments[1]) if len(arguments) == 2 else docs / "convergence.md"
-    file.write_text(report(*measure(umbilic)))
+    file = Path(arguments[0]) if arguments else docs / "convergence.md"
+    file.write_text(report(*measure()))
     print(f"{umbilic.build_info()}: {file} written")
 
 

@@ -3,7 +3,7 @@
 import os
 
 import numpy
-from contestants import Subject, Umbilic
+from contestants import Subject, umbilic
 from samplings import grid
 from shapes import SHAPES
 
@@ -18,13 +18,13 @@ def threads():
         os.environ[variable] = "1"
 
 
-def costs(library, entrants):
+def costs(entrants):
     """Names, quantities and nanoseconds a vertex, and the number of vertices. Estimators take turns in rounds."""
     threads()
     shape = next(shape for shape in SHAPES if shape.name == "torus")
     sample = grid(shape, "irregular", ROWS, numpy.random.RandomState(1))
     estimators, found = entrants(), {}
-    with Umbilic(library).mesh(sample.faces, len(sample.positions)) as topology:
+    with umbilic.Topology(sample.faces, len(sample.positions)) as topology:
         subject = Subject(sample, topology)
         for _ in range(ROUNDS):
             for estimator in estimators:

@@ -6,9 +6,11 @@ from pathlib import Path
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "peers"))
-from umbilic import METHODS, WEIGHTS, Umbilic  # noqa: E402, F401
+import bindings  # noqa: E402, F401
+import umbilic  # noqa: E402
+from umbilic import METHODS, WEIGHTS  # noqa: E402
 
-# Names, and the options of Mesh.normals.
+# Names, and the options of vertex_normals.
 FITS = ("jet", "adaptive-jet", "tilted-sections")
 AVERAGES = {weight: {"weight": weight} for weight in WEIGHTS if weight not in FITS}
 NORMALS = AVERAGES | {f"jet {degree}": {"weight": "jet", "degree": degree} for degree in (1, 2, 3, 4)}
@@ -39,7 +41,9 @@ class Curvature:
             # Shrinks like the square root of an edge, so ever more edges are in it.
             diameter = numpy.linalg.norm(numpy.ptp(mesh.positions, axis=0))
             options["radius"] = 0.3 * diameter * len(mesh.positions) ** -0.25
-        return topology.curvatures(mesh.positions, self.method, self.wanted, **options)
+        return vars(
+            umbilic.curvatures(mesh.positions, topology, method=self.method, outputs=self.wanted, **options)
+        )
 
 
 def curvatures():

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Measures every normal and curvature of umbilic on a suite of surfaces, and compares them with the best of each row.
 
-    python3 benches/accuracy/leaderboard.py LIBRARY [--peers FOLDER] [--seed N ...]
+    python3 benches/accuracy/leaderboard.py [--peers FOLDER] [--seed N ...]
 
 writes docs/accuracy.md and docs/accuracy.png; with --again, from what it measured the last time.
 
-    python3 benches/accuracy/leaderboard.py LIBRARY --half tuning [--only NAME,...] [--seed N ...] [--worst N] [--rows]
+    python3 benches/accuracy/leaderboard.py --half tuning [--only NAME,...] [--seed N ...] [--worst N] [--rows]
 
 writes no documents, but prints how candidates (or any estimators, with --only: "adaptive-jet 4", "jet 3-2",
 "tilted-sections") compare with the best fixed estimator of each row. The errors of the fixed ones are kept in
@@ -36,7 +36,6 @@ SEEDS = {None: [1, 2, 3], "tuning": [1], "verification": [1]}
 
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("library", type=Path)
     parser.add_argument("--half", choices=HALVES, help="print how estimators do on it, and write nothing")
     parser.add_argument("--seed", type=int, nargs="+", help="of the meshes; several make more rows")
     parser.add_argument("--peers", type=Path, help="where the programs of cpp/ are")
@@ -48,7 +47,7 @@ def arguments(words):
     parser.add_argument("--fresh", action="store_true", help="measure the fixed estimators again")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(words)
-    options.library, options.seed = options.library.resolve(), options.seed or SEEDS[options.half]
+    options.seed = options.seed or SEEDS[options.half]
     return options
 
 
@@ -58,7 +57,7 @@ def cached_fixed(options, seed):
     code = hashlib.sha256(b"".join((HERE / f"{name}.py").read_bytes() for name in sources)).hexdigest()[:12]
     file = CACHE / f"fixed-{options.half}-{seed}-{code}.pickle"
     if options.fresh or not file.exists():
-        scores = measure(options.library, fixed, cases(HALVES[options.half], [seed]), options.processes)
+        scores = measure(fixed, cases(HALVES[options.half], [seed]), options.processes)
         CACHE.mkdir(parents=True, exist_ok=True)
         file.write_bytes(pickle.dumps(scores))
     return pickle.loads(file.read_bytes())
@@ -105,7 +104,7 @@ def write(options):
     file, start = CACHE / "last.pickle", time.time()
     if not options.again:
         CACHE.mkdir(parents=True, exist_ok=True)
-        found = Measurements(options.library, options.peers, options.seed, options.processes)
+        found = Measurements(options.peers, options.seed, options.processes)
         file.write_bytes(pickle.dumps(found))
     publish(pickle.loads(file.read_bytes()), options.docs)
     print(f"accuracy.md and accuracy.png written, in {time.time() - start:.0f} s")
@@ -135,7 +134,7 @@ def compare(options, scores, wanted):
             print(f"{name}: not in this library")
     if names:
         entrants = partial(candidates, wanted)
-        scores.merge(measure(options.library, entrants, cases(HALVES[options.half], options.seed), options.processes))
+        scores.merge(measure(entrants, cases(HALVES[options.half], options.seed), options.processes))
     return names
 
 

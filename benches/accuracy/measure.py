@@ -3,20 +3,20 @@
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
-from contestants import Subject, Umbilic
+from contestants import Subject, umbilic
 from scores import Scores, errors_of
 
 
 class Worker:
     """What a process measures with. `entrants` makes the estimators: peers must not be loaded before a fork."""
 
-    def __init__(self, library, entrants):
-        self.umbilic, self.estimators = Umbilic(library), entrants()
+    def __init__(self, entrants):
+        self.estimators = entrants()
 
     def scores(self, case):
         scores = Scores()
         for noise, sample in case.samples():
-            with self.umbilic.mesh(sample.faces, len(sample.positions)) as topology:
+            with umbilic.Topology(sample.faces, len(sample.positions)) as topology:
                 subject = Subject(sample, topology)
                 for estimator in self.estimators:
                     scores.add(estimator, case, noise, errors_of(sample, estimator.run(subject)))
@@ -26,18 +26,18 @@ class Worker:
 WORKER = None
 
 
-def start(library, entrants):
+def start(entrants):
     global WORKER
-    WORKER = Worker(library, entrants)
+    WORKER = Worker(entrants)
 
 
 def work(case):
     return WORKER.scores(case)
 
 
-def measure(library, entrants, cases, processes=2):
+def measure(entrants, cases, processes=2):
     scores = Scores()
-    with ProcessPoolExecutor(processes, get_context("fork"), start, (library, entrants)) as pool:
+    with ProcessPoolExecutor(processes, get_context("fork"), start, (entrants,)) as pool:
         for found in pool.map(work, cases, chunksize=4):
             scores.merge(found)
     return scores

@@ -26,11 +26,11 @@ def own():
 
 
 class Measurements:
-    def __init__(self, library, programs, seeds, processes):
+    def __init__(self, programs, seeds, processes):
         everyone = Everyone(programs)
-        self.build = contestants.Umbilic(library).build_info()
+        self.build = contestants.umbilic.build_info()
         self.seeds = seeds
         self.peers, self.missing = elsewhere(everyone.told)
-        self.scores = measure(library, everyone, cases([*TUNING, *VERIFICATION], seeds), processes)
-        self.costs, self.cost_vertices = elsewhere(costs, library, everyone)
-        self.valences = experiment(library)
+        self.scores = measure(everyone, cases([*TUNING, *VERIFICATION], seeds), processes)
+        self.costs, self.cost_vertices = elsewhere(costs, everyone)
+        self.valences = experiment()

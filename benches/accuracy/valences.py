@@ -1,7 +1,7 @@
 """The experiment of Max 1999: normals at the centres of random one-rings on random cubic height fields, by valence."""
 
 import numpy
-from contestants import AVERAGES, WEIGHTS, Umbilic
+from contestants import AVERAGES, WEIGHTS, umbilic
 from scores import degrees_between, rms
 
 COUNT = 40_000
@@ -46,16 +46,16 @@ def error(normals):
     return rms(degrees_between(normals[:COUNT], numpy.array([[0.0, 0.0, 1.0]])))
 
 
-def experiment(library):
+def experiment():
     """Errors by angles, estimator and valence."""
-    umbilic, found = Umbilic(library), {}
+    found = {}
     weights = AVERAGES | {name: name for name in ("tilted-sections",) if name in WEIGHTS}
     for angles in ANGLES:
         random, rows = numpy.random.RandomState(5), found.setdefault(angles, {})
         for valence in VALENCES:
             positions, triangles = rings(valence, angles, random)
-            with umbilic.mesh(triangles, len(positions)) as mesh:
+            with umbilic.Topology(triangles, len(positions)) as mesh:
                 for name, weight in weights.items():
-                    normals, _ = mesh.normals(positions, weight, threads=1)
+                    normals, _ = umbilic.vertex_normals(positions, mesh, weight=weight, threads=1)
                     rows.setdefault(name, []).append(error(normals))
     return found

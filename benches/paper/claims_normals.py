@@ -3,6 +3,7 @@
 import numpy
 import places  # noqa: F401
 import style
+import umbilic
 from convergence import degrees_between, rms
 from irregular import SURFACES, Errors, cases
 from library import PAPER
@@ -19,22 +20,14 @@ RINGS, VALENCES = 2500, range(3, 10)
 PLOTTED = PAPER | {"Max": "max"}
 
 
-def estimators(library):
-    """What the library has of the list: a weight, or else a curvature whose normal is asked for."""
-    for name, what in LISTED.items():
-        if library.knows(weight=what):
-            yield name, lambda mesh, positions, weight=what: mesh.normals(positions, weight)[0]
-        elif library.knows(method=what):
-            yield name, lambda mesh, positions, method=what: mesh.curvatures(positions, method, ("normal",))["normal"]
-
-
 def on_surfaces(library):
     """Root mean squares of the angle to the exact normal, in degrees."""
-    errors, listed = Errors(), dict(estimators(library))
+    errors = Errors()
     for case in cases():
-        with library.mesh(case.mesh.faces, len(case.mesh.positions)) as topology:
-            for name, normals in listed.items():
-                off = degrees_between(normals(topology, case.mesh.positions), case.mesh.exact.normal)
+        with umbilic.Topology(case.mesh.faces, len(case.mesh.positions)) as topology:
+            for name, weight in LISTED.items():
+                normals = umbilic.vertex_normals(case.mesh.positions, topology, weight=weight).normal
+                off = degrees_between(normals, case.mesh.exact.normal)
                 errors.add(name, case, rms(off[case.mesh.counted]))
     return errors
 
@@ -72,9 +65,10 @@ def on_rings(library):
         for valence in VALENCES:
             neighbours = rings(random, draw(random, valence))
             positions, faces = fans(neighbours)
-            with library.mesh(faces, len(positions)) as mesh:
+            with umbilic.Topology(faces, len(positions)) as mesh:
                 for name, weight in PLOTTED.items():
-                    normals = unit(mesh.normals(positions, weight)[0][: len(neighbours)])
+                    normals = umbilic.vertex_normals(positions, mesh, weight=weight).normal
+                    normals = unit(normals[: len(neighbours)])
                     off = 2 * numpy.degrees(numpy.arcsin(numpy.linalg.norm(normals - [0, 0, 1], axis=1) / 2))
                     found.setdefault(kind, {}).setdefault(name, []).append(float(numpy.sqrt((off**2).mean())))
     return found

@@ -1,6 +1,7 @@
 """What the paper claims of sections, measured: principal curvatures from them, by circle and by symmetric parabola."""
 
 import places  # noqa: F401
+import umbilic
 from convergence import rms
 from irregular import SURFACES, Errors, cases
 from pages import short
@@ -21,23 +22,23 @@ RIVALS = {
 
 def error(topology, mesh, method, **options):
     """Of k1 and k2 together, relative to the surface's curvedness."""
-    found, exact, counted = topology.curvatures(mesh.positions, method, **options), mesh.exact, mesh.counted
+    found = umbilic.curvatures(mesh.positions, topology, method=method, outputs=("k1", "k2"), **options)
+    exact, counted = mesh.exact, mesh.counted
     unit = rms([exact.k1[counted], exact.k2[counted]])
-    return rms([(found["k1"] - exact.k1)[counted], (found["k2"] - exact.k2)[counted]]) / unit
+    return rms([(found.k1 - exact.k1)[counted], (found.k2 - exact.k2)[counted]]) / unit
 
 
 def on_surfaces(library):
     errors = Errors()
-    rivals = {name: each for name, each in RIVALS.items() if library.knows(method=each[0])}
     for case in cases():
         mesh = case.mesh
-        with library.mesh(mesh.faces, len(mesh.positions)) as topology:
+        with umbilic.Topology(mesh.faces, len(mesh.positions)) as topology:
             given = {"N_CM": {"weight": "conformal"}, "Max": {"weight": "max"}, "exact": {"normals": mesh.exact.normal}}
             for letter, section in SECTIONS.items():
                 for normals in NORMALS:
                     found = error(topology, mesh, "least-squares", section=section, **given[normals])
                     errors.add((letter, normals), case, found)
-            for name, (method, weight) in rivals.items():
+            for name, (method, weight) in RIVALS.items():
                 options = {"weight": weight} if weight else {}
                 errors.add(name, case, error(topology, mesh, method, **options))
     return errors

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the tables and figures of "New Computation of Normal Vector and Curvature" anew, and measures its claims.
 
-python3 benches/paper/paper.py target/release/libumbilic.so [FOLDER]
+python3 benches/paper/paper.py [FOLDER]
 
 Writes README.md, errata.md and pictures to the folder, docs/paper if nothing is said. Everything is seeded: the same
 library and versions of numpy and matplotlib write the same bytes.
@@ -16,6 +16,7 @@ import claims_normals
 import claims_sections
 import errata
 import measured
+import umbilic
 import verdicts_curvature
 import verdicts_normals
 from library import Library
@@ -71,14 +72,14 @@ measured. Written by `make paper`; [tables and figures](README.md) are on a page
 
 
 def main(arguments):
-    if len(arguments) not in (1, 2):
-        sys.exit("usage: paper.py LIBRARY [FOLDER]")
-    library = Library(Path(arguments[0]).resolve())
-    folder = Path(arguments[1]) if len(arguments) == 2 else ROOT / "docs" / "paper"
+    if len(arguments) > 1:
+        sys.exit("usage: paper.py [FOLDER]")
+    library = Library()
+    folder = Path(arguments[0]) if arguments else ROOT / "docs" / "paper"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "README.md").write_text(readme(library, folder) + "\n")
     (folder / "errata.md").write_text(verdicts(library, folder) + "\n")
-    print(f"{library.build_info()}: the paper's tables and figures written")
+    print(f"{umbilic.build_info()}: the paper's tables and figures written")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 """Table 2: mean error of normals on a tetrahedron that is subdivided onto the sphere."""
 
 import numpy
+import places  # noqa: F401
 import printed
+import umbilic
 from library import PAPER
 from pages import paragraphs, percent, scientific, significant, table
 from polyhedra import TETRAHEDRON, TETRAHEDRON_FACES, subdivided, tetrahedron_sphere, unit
@@ -46,8 +48,9 @@ def nearest_placement(library):
     for towards_middle in numpy.linspace(0.35, 0.65, PLACES):
         for towards_corner in numpy.linspace(-0.15, 0.15, PLACES):
             positions, faces = symmetric(towards_middle, towards_corner)
-            with library.mesh(faces, len(positions)) as mesh:
-                found = [1 - (mesh.normals(positions, PAPER[name])[0] * positions).sum(1) for name in names]
+            with umbilic.Topology(faces, len(positions)) as mesh:
+                normals = [umbilic.vertex_normals(positions, mesh, weight=PAPER[name]).normal for name in names]
+            found = [1 - (each * positions).sum(1) for each in normals]
             worst.append(numpy.abs(numpy.log(numpy.abs(found).mean(1) / target)).max())
     return float(numpy.exp(min(worst)) - 1)
 

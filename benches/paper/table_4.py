@@ -1,6 +1,8 @@
 """Table 4: one edge with a given normal, by circle and by symmetric parabola."""
 
 import numpy
+import places  # noqa: F401
+import umbilic
 from pages import paragraphs, scientific, table, under
 from polyhedra import fans
 
@@ -13,13 +15,13 @@ def sections(library, edges):
     positions, faces = fans(edges)
     count = len(edges)
     normals = numpy.broadcast_to(UP, positions.shape)
-    with library.mesh(faces, len(positions)) as mesh:
-        offsets, neighbours = mesh.rings()
-        found = {
-            letter: mesh.edge_sections(positions, section, normals=normals)[0][: offsets[count]]
-            for letter, section in (("C", "circle"), ("SP", "symmetric-parabola"))
-        }
-        return found, positions[neighbours[: offsets[count]]]
+    mesh = umbilic.Topology(faces, len(positions))
+    end = mesh.ring_offsets[count]
+    found = {
+        letter: umbilic.edge_sections(positions, mesh, section=section, normals=normals).curvature[:end]
+        for letter, section in (("C", "circle"), ("SP", "symmetric-parabola"))
+    }
+    return found, positions[mesh.ring_neighbours[:end]]
 
 
 def around(radial, height):

@@ -4,12 +4,14 @@ Mean curvature is positive where the surface is convex, seen from the side that 
 sphere of radius r has 1/r. The peers are called so that theirs has this sign.
 """
 
+import dataclasses
 import time
 from importlib.metadata import version
 
 import igl
 import numpy
 import pymeshlab
+import umbilic
 
 ROUNDS = 3
 
@@ -33,38 +35,40 @@ def timed(call, subject):
 class AdaptiveJet:
     title, curvature, normal = "umbilic", "adaptive-jet (default)", "adaptive-jet"
 
-    def __init__(self, umbilic, quieter=1):
+    def __init__(self, quieter=1):
         """`quieter`: the noise that the model learned is divided by this."""
-        self.umbilic, self.version, self.quieter = umbilic, umbilic.build_info().split(",")[0], quieter
+        self.version, self.quieter = umbilic.build_info().split(",")[0], quieter
         if quieter != 1:
             self.curvature = self.normal = f"adaptive-jet, noise / {quieter}"
 
     def mean(self, subject):
-        return self.curvatures(subject, "mean")["mean"]
+        return self.curvatures(subject, "mean").mean
 
     def normals(self, subject):
         with self.topology(subject) as mesh:
-            return mesh.normals(subject.positions, "adaptive-jet", threads=1, **self.model(mesh, subject))[0]
+            options = self.model(mesh, subject)
+            return umbilic.vertex_normals(
+                subject.positions, mesh, weight="adaptive-jet", threads=1, **options
+            ).normal
 
     def curvatures(self, subject, *wanted):
         with self.topology(subject) as mesh:
             options = self.model(mesh, subject)
-            return mesh.curvatures(subject.positions, "adaptive-jet", wanted, threads=1, **options)
+            return umbilic.curvatures(subject.positions, mesh, outputs=wanted, threads=1, **options)
 
     def topology(self, subject):
-        return self.umbilic.mesh(subject.faces, len(subject.positions))
+        return umbilic.Topology(subject.faces, len(subject.positions))
 
     def model(self, mesh, subject):
         if self.quieter == 1:
             return {}
-        model = mesh.model(subject.positions)
-        model.noise /= self.quieter
-        return {"model": model}
+        model = umbilic.learn_model(subject.positions, mesh)
+        return {"model": dataclasses.replace(model, noise=model.noise / self.quieter)}
 
     def noise(self, subject):
         """What it takes for noise, in units of its edge length."""
         with self.topology(subject) as mesh:
-            model = mesh.model(subject.positions)
+            model = umbilic.learn_model(subject.positions, mesh)
         return model.noise / model.edge_length
 
 

@@ -1,7 +1,7 @@
 """Curvature along the creases of a mesh, whose vertices adaptive jets mark."""
 
 import numpy
-from umbilic import CREASE, FALLBACK
+from umbilic import VertexStatus
 
 SHARP = 30  # degrees between the faces of an edge
 DROP = 3  # a neighbour so many times as small is a switch
@@ -11,8 +11,8 @@ class Rims:
     """Of edges with an angle: `value` is H times the mean length of a vertex's edges, convex and concave rims apart."""
 
     def __init__(self, mesh, found):
-        self.marked = (found["status"] & CREASE != 0) & (found["status"] & FALLBACK != 0)
-        self.value = found["mean"] * mesh.own_edge
+        self.marked = (found.status & VertexStatus.CREASE != 0) & (found.status & VertexStatus.FALLBACK != 0)
+        self.value = found.mean * mesh.own_edge
         edges, angles = dihedrals(mesh)
         sharp = numpy.abs(angles) > SHARP
         edges, angles = edges[sharp], angles[sharp]

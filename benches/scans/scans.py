@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Normals and mean curvature of scans by umbilic, libigl and VCG, side by side: pictures and figures.
 
-python3 benches/scans/scans.py target/release/libumbilic.so MESHES [FOLDER]
+python3 benches/scans/scans.py MESHES [FOLDER]
 
 MESHES is where tests/peers/meshes.sh left its meshes. Writes scans.md and scans_*.png to the folder, docs if nothing
 is said. Everything but times is the same in every run.
@@ -17,19 +17,17 @@ from columns import ROUNDS, AdaptiveJet, Found, Libigl, Vcg
 from stability import Measured
 from places import ROOT
 from subjects import SHOWN, Mesh
-from umbilic import Umbilic
 
 QUIETER = 10  # the page says: a tenth
 
 
 def main(arguments):
-    if len(arguments) not in (2, 3):
-        sys.exit("usage: scans.py LIBRARY MESHES [FOLDER]")
-    umbilic = Umbilic(Path(arguments[0]).resolve())
-    folder = Path(arguments[2]) if len(arguments) == 3 else ROOT / "docs"
-    drawn = [AdaptiveJet(umbilic), Libigl(), Vcg(), AdaptiveJet(umbilic, QUIETER)]
+    if len(arguments) not in (1, 2):
+        sys.exit("usage: scans.py MESHES [FOLDER]")
+    folder = Path(arguments[1]) if len(arguments) == 2 else ROOT / "docs"
+    drawn = [AdaptiveJet(), Libigl(), Vcg(), AdaptiveJet(QUIETER)]
     columns = [*drawn, Libigl(radius=2), Vcg(fitted=True)]
-    meshes = [Mesh(name, Path(arguments[1])) for name in SHOWN]
+    meshes = [Mesh(name, Path(arguments[0])) for name in SHOWN]
     measured = []
     for mesh in meshes:
         found = [Found(column, mesh, ROUNDS) for column in columns]

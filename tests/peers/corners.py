@@ -2,7 +2,7 @@
 """Compares the corner normals of umbilic with libigl's per_corner_normals on real meshes.
 
     pip install -r tests/peers/requirements.txt
-    python3 tests/peers/corners.py target/release/libumbilic.so "$(tests/peers/meshes.sh target/meshes)"
+    python3 tests/peers/corners.py "$(tests/peers/meshes.sh target/meshes)"
 
 The definitions differ. libigl adds up, by area, all faces at the vertex whose normal is within the angle of the corner's own face, wherever
 they are; umbilic those that can be reached around the vertex over edges within the angle. Corners at which both add up the same
@@ -12,10 +12,11 @@ faces are compared: there the results must agree within 1e-12, or within the rou
 import sys
 from pathlib import Path
 
+import bindings  # noqa: F401
 import igl
 import numpy
+import umbilic
 from peers import Corners, divide, length, mesh_files, read
-from umbilic import Umbilic
 
 ANGLE = 30.0  # degrees
 TOLERANCE = 1e-12
@@ -34,12 +35,14 @@ def pairs_at_vertices(triangles):
         yield second[same], first[same]
 
 
-def compare(umbilic, name, positions, triangles):
+def compare(name, positions, triangles):
     """Prints a line; answers with whether the comparison passed."""
     corners = Corners(positions, triangles)
     normals = corners.normal[:, 0].astype(float)
     areas = corners.double_area[:, 0].astype(float)
-    ours, cut = umbilic.corner_normals(triangles, positions, numpy.radians(ANGLE), "area")
+    mesh = umbilic.Cut(positions, triangles, angle=numpy.radians(ANGLE))
+    ours = umbilic.corner_normals(positions, mesh, weight="area").corner.reshape(-1, 3, 3)
+    cut = mesh.corners.reshape(-1, 3)
     theirs = igl.per_corner_normals(positions, triangles.astype(numpy.int64), ANGLE).reshape(-1, 3, 3)
     face_of = numpy.arange(3 * len(triangles)) // 3
     repeated = (triangles == numpy.roll(triangles, 1, axis=1)).any(axis=1)
@@ -71,13 +74,12 @@ def compare(umbilic, name, positions, triangles):
 
 
 def main(arguments):
-    if len(arguments) < 2:
-        sys.exit("usage: corners.py LIBRARY (MESH | DIRECTORY)...")
-    umbilic = Umbilic(Path(arguments[0]).resolve())
+    if not arguments:
+        sys.exit("usage: corners.py (MESH | DIRECTORY)...")
     print(f"{'mesh':26}{'#F':>8}{'split':>8}{'compared':>11}{'largest':>10}{'rounding':>10}{'bad':>6}")
     results = [
-        compare(umbilic, path.name, *read(path))
-        for argument in arguments[1:]
+        compare(path.name, *read(path))
+        for argument in arguments
         for path in mesh_files(Path(argument))
     ]
     print(f"{sum(results)} passed, {len(results) - sum(results)} failed")

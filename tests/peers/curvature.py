@@ -2,7 +2,7 @@
 """Compares the curvatures of umbilic with those of libigl and of VCG (through PyMeshLab).
 
     pip install -r tests/peers/requirements.txt
-    python3 tests/peers/curvature.py target/release/libumbilic.so "$(tests/peers/meshes.sh target/meshes)"
+    python3 tests/peers/curvature.py "$(tests/peers/meshes.sh target/meshes)"
 
 Meshes are given as to peers.py, and cut into triangles as there. All is in double precision.
 
@@ -47,13 +47,14 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+import bindings  # noqa: F401
 import igl
 import numpy
 import pymeshlab
+import umbilic
 from peers import Corners, divide, length, mesh_files, read
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from umbilic import Umbilic
 
 sys.path.insert(1, str(Path(__file__).resolve().parents[2] / "benches" / "accuracy"))
 from meshes import Mesh  # noqa: E402
@@ -217,11 +218,13 @@ def within(difference, bound, tolerance):
     return {"rounding": (difference <= bound + tolerance) & (bound < 0.1), "sliver": ~(bound < 0.1)}
 
 
-def compare(umbilic, name, positions, triangles):
+def compare(name, positions, triangles):
     """Prints a line for each quantity; answers with the numbers of comparisons that passed and failed."""
-    with umbilic.mesh(triangles, len(positions)) as mesh:
-        ours = mesh.curvatures(positions, "meyer", ("mean", "gaussian", "mean_normal", "area"))
-        defect = mesh.curvatures(positions, "angle-defect", ("integrated_gaussian",))["integrated_gaussian"]
+    topology = umbilic.Topology(triangles, len(positions))
+    ours = vars(
+        umbilic.curvatures(positions, topology, method="meyer", outputs=("mean", "gaussian", "mean_normal", "area"))
+    )
+    defect = umbilic.curvatures(positions, topology, method="angle-defect").integrated_gaussian
     fans, corners = Fans(positions, triangles), Corners(positions, triangles)
     bounds = Bounds(corners, positions)
     area, perimeter = ours["area"], bounds.perimeter
@@ -293,28 +296,31 @@ def judge(text, holds):
     return bool(holds)
 
 
-def compare_smooth(umbilic):
+def compare_smooth():
     """Prints errors and agreements; answers with the numbers of judgements that passed and failed."""
     errors, differences, judgements = {}, {}, []
     for size in (26, 52):
         mesh = Mesh(Ellipsoid(), "irregular", size)
         exact = mesh.exact
         unit = rms(numpy.stack([exact.k1, exact.k2]))
-        with umbilic.mesh(mesh.faces, len(mesh.positions)) as topology:
-            jet = topology.curvatures(mesh.positions, "jet", degree=2)
-            taubin = topology.curvatures(mesh.positions, "taubin", ("mean",), section="circle", weight="area")["mean"]
-            cycle = topology.curvatures(mesh.positions, "normal-cycle", ("integrated_mean",))["integrated_mean"]
+        topology = umbilic.Topology(mesh.faces, len(mesh.positions))
+        jet = umbilic.curvatures(mesh.positions, topology, method="jet", degree=2)
+        options = {"section": "circle", "weight": "area", "outputs": ("mean",)}
+        taubin = umbilic.curvatures(mesh.positions, topology, method="taubin", **options).mean
+        cycle = umbilic.curvatures(
+            mesh.positions, topology, method="normal-cycle", outputs=("integrated_mean",)
+        ).integrated_mean
         _, _, k1, k2, _ = igl.principal_curvature(mesh.positions, mesh.faces.astype(numpy.int64), 2, True)
         # MeshLab's maximum is the smaller one.
         found = {
-            "umbilic": (jet["k1"], jet["k2"]),
+            "umbilic": (jet.k1, jet.k2),
             "libigl": (k1, k2),
             "VCG": tuple(vcg_principal(mesh, "Quadric Fitting", f"{name} Curvature") for name in ("Min", "Max")),
         }
         print(f"ellipsoid, {len(mesh.positions)} vertices")
         for name, values in found.items():
             error = rms(numpy.stack(values) - [exact.k1, exact.k2]) / unit
-            difference = rms(numpy.stack(values) - [jet["k1"], jet["k2"]]) / unit
+            difference = rms(numpy.stack(values) - [jet.k1, jet.k2]) / unit
             errors.setdefault(name, []).append(error)
             differences[name] = difference
             print(f"  quadric of {name:8} error {error:.2%}, difference from umbilic {difference:.2%}")
@@ -332,20 +338,19 @@ def compare_smooth(umbilic):
 
 
 def main(arguments):
-    if len(arguments) < 2:
-        sys.exit("usage: curvature.py LIBRARY (MESH | DIRECTORY)...")
-    umbilic = Umbilic(Path(arguments[0]).resolve())
+    if not arguments:
+        sys.exit("usage: curvature.py (MESH | DIRECTORY)...")
     versions = ", ".join(f"{package} {version(package)}" for package in ("libigl", "pymeshlab", "numpy"))
     print(f"{umbilic.build_info()}; {versions}\n")
     print(f"{'':59}{'largest':>9}  {'outliers by cause':30}")
     heads = "".join(f"{cause:>10}" for cause in CAUSES)
     print(f"{'mesh':26}{'#V':>7}{'#F':>7}  {'peer':7}{'quantity':10}{'agreeing':>9}{heads}{'unexplained':>12}")
     passed = failed = 0
-    for path in (path for argument in arguments[1:] for path in mesh_files(Path(argument))):
-        good, bad = compare(umbilic, path.name, *read(path))
+    for path in (path for argument in arguments for path in mesh_files(Path(argument))):
+        good, bad = compare(path.name, *read(path))
         passed, failed = passed + good, failed + bad
     print()
-    good, bad = compare_smooth(umbilic)
+    good, bad = compare_smooth()
     passed, failed = passed + good, failed + bad
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0

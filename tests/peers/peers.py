@@ -2,9 +2,9 @@
 """Compares the vertex normals of umbilic with those of libigl and of VCG (through PyMeshLab) on real meshes.
 
     pip install -r tests/peers/requirements.txt
-    python3 tests/peers/peers.py target/release/libumbilic.so "$(tests/peers/meshes.sh target/meshes)"
+    python3 tests/peers/peers.py "$(tests/peers/meshes.sh target/meshes)"
 
-After the library come mesh files (OFF, OBJ, PLY) or directories; of a directory, the meshes that meshes.txt names are
+Arguments are mesh files (OFF, OBJ, PLY) or directories; of a directory, the meshes that meshes.txt names are
 taken. All three libraries are handed the same arrays. Polygons are cut into triangles by a fan from their first corner,
 because libigl and VCG know triangles only.
 
@@ -25,10 +25,13 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+import bindings  # noqa: F401
 import igl
 import numpy
 import pymeshlab
-from umbilic import DEGENERATE, FALLBACK, ISOLATED, Umbilic
+import umbilic
+
+DEGENERATE, FALLBACK, ISOLATED = (int(umbilic.VertexStatus[name]) for name in ("DEGENERATE", "FALLBACK", "ISOLATED"))
 
 SCALARS = {"f32": (numpy.float32, 1e-6), "f64": (numpy.float64, 1e-12)}  # with tolerance
 CAUSES = ("isolated", "cancelled", "rounding", "acos")
@@ -152,7 +155,7 @@ def explain(differences, statuses, tolerance, bounds, takes_acos):
     return counts, agreeing.max(initial=0.0), numpy.flatnonzero(unexplained)
 
 
-def compare(umbilic, name, positions, triangles):
+def compare(name, positions, triangles):
     """Prints a line for each scalar and peer; answers with the numbers of comparisons that passed and failed."""
     passed = failed = 0
     for scalar, (dtype, tolerance) in SCALARS.items():
@@ -161,8 +164,7 @@ def compare(umbilic, name, positions, triangles):
         for peer in (Libigl(rounded, triangles), Vcg(rounded, triangles)):
             largest, totals, bad = 0.0, dict.fromkeys(CAUSES, 0), []
             for weight in peer.weights:
-                with umbilic.mesh(triangles, len(positions)) as mesh:
-                    normals, statuses = mesh.normals(positions, weight, scalar)
+                normals, statuses = umbilic.vertex_normals(positions.astype(dtype), triangles, weight=weight)
                 theirs = peer.normals(weight)
                 differences = length(normals - theirs)
                 bounds = error_bounds(corners, weight)
@@ -229,17 +231,16 @@ def mesh_files(argument):
 
 
 def main(arguments):
-    if len(arguments) < 2:
-        sys.exit("usage: peers.py LIBRARY (MESH | DIRECTORY)...")
-    umbilic = Umbilic(Path(arguments[0]).resolve())
+    if not arguments:
+        sys.exit("usage: peers.py (MESH | DIRECTORY)...")
     versions = ", ".join(f"{package} {version(package)}" for package in ("libigl", "pymeshlab", "numpy"))
     print(f"{umbilic.build_info()}; {versions}\n")
     print(f"{'':53}{'largest':>9}  {'outliers by cause':40}")
     heads = "".join(f"{cause:>10}" for cause in CAUSES)
     print(f"{'mesh':26}{'#V':>7}{'#F':>7}  {'':3} {'peer':7}{'agreeing':>9}{heads}{'unexplained':>12}")
     passed = failed = 0
-    for path in (path for argument in arguments[1:] for path in mesh_files(Path(argument))):
-        good, bad = compare(umbilic, path.name, *read(path))
+    for path in (path for argument in arguments for path in mesh_files(Path(argument))):
+        good, bad = compare(path.name, *read(path))
         passed, failed = passed + good, failed + bad
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0
