@@ -269,6 +269,27 @@ fn progress_runs_from_0_to_1_and_can_cancel() {
 }
 
 #[test]
+fn progress_of_learning_runs_from_0_to_1_and_can_cancel() {
+    let empty = Mesh::new("empty", Vec::new(), Vec::new());
+    for (mesh, calls) in [(mesh::torus(60, 40, 0.2, 0.0, 1), 3), (empty, 1)] {
+        let (topology, points) = (topology(&mesh), Points::from(&mesh.positions));
+        for cancel_at in [0.4, 2.0] {
+            let (mut last, mut upwards, mut called) = (0.0, true, 0);
+            let mut progress = |fraction: f64| {
+                upwards &= (last..=1.0).contains(&fraction);
+                last = fraction;
+                called += 1;
+                fraction < cancel_at
+            };
+            let result = learn_model(&topology, &points, Run { progress: Some(&mut progress), ..Run::default() });
+            let cancelled = cancel_at < 1.0 && calls > 1;
+            assert_eq!(result.err(), cancelled.then_some(Error::Cancelled), "{}", mesh.name);
+            assert!(upwards && (cancelled || last == 1.0 && called >= calls), "{last} after {called}");
+        }
+    }
+}
+
+#[test]
 fn degrees_of_freedom_are_at_least_one_however_strong_the_prior() {
     // Found by fuzzing: a prior of hardly any size, and neighbours at the end of single precision. Rounding made it -1.6.
     let far = f32::MAX as f64;

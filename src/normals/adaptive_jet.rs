@@ -71,7 +71,12 @@ pub(crate) trait Sink: Sync {
 /// [`Error::Cancelled`]; [`Error::OutOfMemory`].
 pub fn learn_model(topology: &Topology, points: &Points<'_>, mut run: Run<'_>) -> Result<AdaptiveModel, Error> {
     let around = run.part_for(None, 0.0, 0.5, |mut run| surroundings(topology, points, &mut run))?;
-    run.part_for(None, 0.5, 1.0, |mut run| learn(topology, points, &around, &mut run))
+    let model = run.part_for(None, 0.5, 1.0, |mut run| learn(topology, points, &around, &mut run))?;
+    if let Some(progress) = &mut run.progress {
+        // Learning ends without a sweep, or with none at all; a wish to cancel comes too late to matter.
+        progress(1.0);
+    }
+    Ok(model)
 }
 
 /// Fits adaptive jets to the vertices of `run`.
