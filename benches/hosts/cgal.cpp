@@ -34,7 +34,7 @@ bool run(const char *path, const char *name, const char *copies) {
   umbilic::topology_options one;
   one.threads = 1;
   host::report(
-      name, "topology", "0", [&] { umbilic::topology(loops, mesh.num_vertices(), one); },
+      name, "topology", "1", [&] { umbilic::topology(loops, mesh.num_vertices(), one); },
       [&] { umbilic::cgal::build_topology(mesh, one); });
 
   const umbilic::host_topology rings = umbilic::cgal::build_topology(mesh);

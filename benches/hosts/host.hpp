@@ -3,7 +3,7 @@
  *
  *   host  quantity  copies  library_ms  adapter_ms
  *
- * `copies` are those of positions and results, as the host's page tells; the library's time is that of the calls of the C interface
+ * `copies` are those of faces for a topology, else of positions and results; the library's time is that of the calls of the C interface
  * alone on the same arrays, the adapter's that of the whole call less it. Both take turns; the shortest of all rounds counts.
  */
 #ifndef HOST_HPP

@@ -8,6 +8,7 @@ are not built are left out, with a line that says so.
 """
 
 import datetime
+import os
 import re
 import subprocess
 import sys
@@ -23,34 +24,75 @@ QUANTITIES = ("topology", "vertex normals", "curvature")
 
 @dataclass(frozen=True)
 class Program:
-    """What prints the lines of some hosts, `command` with the mesh added, and where these hosts' user's code stands."""
+    """What prints the lines of some hosts, `command` with the mesh added; what is there if it can run; where the user's code stands."""
 
     command: tuple[str, ...]
-    code: str
+    needs: str
     missing: str
+    code: dict[str, tuple[str, ...]]
+    variables: dict[str, str] | None = None
 
 
 PROGRAMS = (
-    Program(("target/hosts/structs",), "benches/hosts/structs.cpp", "it is not built"),
-    Program(("target/hosts/openmesh",), "benches/hosts/openmesh.cpp", "OpenMesh is not installed (Debian: libopenmesh-dev)"),
-    Program(("target/hosts/cgal",), "benches/hosts/cgal.cpp", "CGAL is not installed (Debian: libcgal-dev)"),
+    Program(("target/hosts/structs",), "target/hosts/structs", "it is not built", {"C++ structs": ("benches/hosts/structs.cpp",)}),
+    Program(
+        ("target/hosts/openmesh",), "target/hosts/openmesh", "it is not built", {"OpenMesh": ("benches/hosts/openmesh.cpp",)}
+    ),
+    Program(
+        ("target/hosts/cgal",),
+        "target/hosts/cgal",
+        "it is not built",
+        dict.fromkeys(("CGAL, EPICK", "CGAL, EPECK"), ("benches/hosts/cgal.cpp",)),
+    ),
+    Program(
+        ("target/meshlab/build/timing", "target/meshlab/build/libfilter_umbilic.so"),
+        "target/meshlab/build/timing",
+        "`make test-meshlab` builds it",
+        {"meshlab": ("bindings/meshlab/examples/normals.mlx", "bindings/meshlab/examples/curvature.mlx")},
+        {"QT_QPA_PLATFORM": "offscreen"},
+    ),
+    Program(
+        ("target/python/venv/bin/python", "-B", "benches/hosts/python.py"),
+        "target/python/venv/done",
+        "`make test-python` builds what it runs in",
+        dict.fromkeys(("numpy", "trimesh", "pyvista"), ("benches/hosts/python.py",)),
+        {"UMBILIC_LIBRARY": "target/release/libumbilic.so", "PYTHONPATH": "bindings/python/src"},
+    ),
+    Program(
+        (sys.executable, "-B", "tests/ffi/test.py", "target/release/libumbilic.so", "--time"),
+        "target/ffi",
+        "`make test-ffi` builds them",
+        {
+            "node": ("bindings/node/curvature.js",),
+            "go": ("bindings/go/curvature/main.go",),
+            "java": ("bindings/java/Curvature.java",),
+            "c#": ("bindings/csharp/Curvature.cs",),
+            "luajit": ("bindings/lua/curvature.lua",),
+            "fortran": ("bindings/fortran/curvature.f90",),
+        },
+    ),
 )
+TITLES = {"meshlab": "MeshLab", "node": "Node", "go": "Go", "java": "Java", "c#": "C#", "luajit": "LuaJIT", "fortran": "Fortran"}
+COMMENTS = ("//", "#", "--", "!", "/*", "*", "<!--")
 
 
-def user_code(path: Path, host: str) -> int:
-    """Lines between `begin: user code` and `end: user code` that are neither empty nor comments; if the comments name hosts, of this one."""
-    regions = re.findall(r"begin: user code(?:, ([^\n]*))?\n(.*?)end: user code", path.read_text(), re.DOTALL)
-    named = [text for name, text in regions if name == host] or [text for name, text in regions if not name]
-    if not named:
-        sys.exit(f"{path.relative_to(ROOT)} has no user's code for {host}")
-    lines = [line.strip() for line in named[0].splitlines()]
-    return sum(1 for line in lines if line and not line.startswith(("//", "#", "--", "!", "/*", "*")))
+def user_code(files: tuple[str, ...], host: str) -> int:
+    """Lines between `begin: user code` and `end: user code` that are neither empty nor comments; where the first names a host, of this one."""
+    count = 0
+    for file in files:
+        regions = re.findall(r"begin: user code(?:, ([^\n]*))?[^\n]*\n(.*?)end: user code", (ROOT / file).read_text(), re.DOTALL)
+        lines = [line.strip() for name, text in regions if name in ("", host) for line in text.splitlines()]
+        count += sum(1 for line in lines if line and not line.startswith(COMMENTS))
+    if count == 0:
+        sys.exit(f"{', '.join(files)}: no user's code for {host}")
+    return count
 
 
 def measure(program: Program, mesh: Path) -> dict[str, dict[str, tuple[str, float, float]]]:
     """By host and quantity: copies, milliseconds in the library, and more of them in the adapter."""
     found: dict[str, dict[str, tuple[str, float, float]]] = {}
-    done = subprocess.run([*program.command, str(mesh)], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    variables = os.environ | (program.variables or {})
+    done = subprocess.run([*program.command, str(mesh)], cwd=ROOT, stdout=subprocess.PIPE, text=True, env=variables)
     if done.returncode != 0:
         sys.exit(f"{' '.join(program.command)} failed")
     for line in done.stdout.splitlines():
@@ -59,7 +101,7 @@ def measure(program: Program, mesh: Path) -> dict[str, dict[str, tuple[str, floa
     return found
 
 
-def cell(copies: str, library: float, adapter: float) -> str:
+def cell(_copies: str, library: float, adapter: float) -> str:
     share = max(adapter, 0) / library
     percent = f"{100 * share:.0f} %" if share >= 0.01 else "< 1 %"
     return f"{library:.2f} ms, {percent}"
@@ -68,28 +110,29 @@ def cell(copies: str, library: float, adapter: float) -> str:
 def rows(mesh: Path) -> list[list[str]]:
     lines = []
     for program in PROGRAMS:
-        if not (ROOT / program.command[0]).exists():
-            print(f"{program.code} is left out: {program.missing}", flush=True)
+        if not (ROOT / program.needs).exists():
+            print(f"{', '.join(program.code)}: left out; {program.missing}", flush=True)
             continue
-        print(" ".join(program.command), flush=True)
+        print(", ".join(program.code), flush=True)
         for host, quantities in measure(program, mesh).items():
-            copies = max((copies for copies, _, _ in quantities.values()), key=lambda text: text != "0")
-            cells = [cell(*quantities[name]) if name in quantities else "—" for name in QUANTITIES]
-            lines.append([host, str(user_code(ROOT / program.code, host)), copies, *cells])
+            faces, rest = (quantities[name][0] for name in ("topology", "vertex normals"))
+            cells = [cell(*quantities[name]) for name in QUANTITIES]
+            lines.append([TITLES.get(host, host), str(user_code(program.code[host], host)), faces, rest, *cells])
     return lines
 
 
 def page(mesh: Path, lines: list[list[str]]) -> str:
-    table = [["host", "lines", "copies", *QUANTITIES], ["---", "---:", "---:", "---:", "---:", "---:"], *lines]
+    table = [["host", "lines", "copies of faces", "of the rest", *QUANTITIES], ["---"] + 6 * ["---:"], *lines]
     return "\n".join(
         [
             "# What umbilic costs in each host",
             "",
             f"Written by `make bench-hosts` on {datetime.date.today()}: {mesh.name}, one thread, {machine.processor()}.",
             "",
-            "*Lines* of the user's code, from a mesh in the host's terms to normals and curvatures in it. *Copies* of positions and",
-            "results that the adapter makes, the topology's faces apart. Then milliseconds in the library, by the C interface alone on",
-            "the same arrays, and how much longer the whole call in the host's terms takes; the shortest of many that take turns.",
+            "*Lines* of the user's code, from a mesh in the host's terms to normals and curvatures in it. *Copies* that the adapter makes:",
+            "of faces, where a topology is built; of positions and results. Then milliseconds in the library, by the C interface",
+            "alone on the same arrays, and how much longer the whole call in the host's terms takes; the shortest of many that take turns.",
+            "Hosts of `float` (OpenMesh, C++ structs, MeshLab, pyvista) have other library times than those of `double`.",
             "",
             *(f"| {' | '.join(line)} |" for line in table),
             "",
@@ -98,7 +141,7 @@ def page(mesh: Path, lines: list[list[str]]) -> str:
 
 
 def main():
-    mesh = Path(sys.argv[1])
+    mesh = Path(sys.argv[1]).resolve()
     text = page(mesh, rows(mesh))
     (ROOT / "docs" / "hosts.md").write_text(text)
     print(text)

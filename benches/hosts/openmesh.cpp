@@ -31,7 +31,7 @@ void run(Mesh &mesh) {
   umbilic::topology_options one;
   one.threads = 1;
   host::report(
-      "OpenMesh", "topology", "0", [&] { umbilic::topology(loops, mesh.n_vertices(), one); },
+      "OpenMesh", "topology", "1", [&] { umbilic::topology(loops, mesh.n_vertices(), one); },
       [&] { umbilic::openmesh::build_topology(mesh, one); });
 
   const umbilic::host_topology rings = umbilic::openmesh::build_topology(mesh);

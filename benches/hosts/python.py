@@ -38,13 +38,13 @@ class Numpy:
         return umbilic.Topology(self.triangles, len(self.positions), threads=1)
 
     def normals(self):
-        # begin: user code
+        # begin: user code, numpy
         normals, status = umbilic.vertex_normals(self.positions, self.mesh, threads=1)
         # end: user code
         return [normals]
 
     def curvature(self):
-        # begin: user code
+        # begin: user code, numpy
         k1, k2, direction1, direction2, status = umbilic.curvatures(self.positions, self.mesh, threads=1)
         # end: user code
         return [k1, k2, direction1, direction2]
@@ -65,13 +65,13 @@ class Trimesh:
         return umbilic.Topology(umbilic.trimesh.faces(self.host), len(self.host.vertices), threads=1)
 
     def normals(self):
-        # begin: user code
+        # begin: user code, trimesh
         found = umbilic.trimesh.vertex_normals(self.host, self.mesh, threads=1)
         # end: user code
         return [found.normal]
 
     def curvature(self):
-        # begin: user code
+        # begin: user code, trimesh
         found = umbilic.trimesh.curvatures(self.host, self.mesh, threads=1)
         # end: user code
         return [getattr(found, name) for name in CURVATURES]
@@ -95,13 +95,13 @@ class Pyvista:
         return umbilic.Topology(umbilic.pyvista.faces(self.host), self.host.n_points, threads=1)
 
     def normals(self):
-        # begin: user code
+        # begin: user code, pyvista
         found = umbilic.pyvista.vertex_normals(self.host, self.mesh, threads=1)
         # end: user code
         return [found.normal]
 
     def curvature(self):
-        # begin: user code
+        # begin: user code, pyvista
         found = umbilic.pyvista.curvatures(self.host, self.mesh, threads=1)
         # end: user code
         return [getattr(found, name) for name in CURVATURES]
