@@ -87,6 +87,11 @@ refused "99.0" "version: $version"
 refused "COMPONENTS;fast" "component fast is not installed"
 cmake -S "$scratch/installed/cmake" -B "$scratch/components" -DCMAKE_PREFIX_PATH="$moved" -DWANTED="COMPONENTS;shared;static" \
   > "$scratch/components.log"
+# Where a project has a target of this name already, its own stays.
+mkdir "$scratch/own"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.18)' 'project(own LANGUAGES C)' 'add_library(own INTERFACE)' \
+  'add_library(umbilic::umbilic ALIAS own)' 'find_package(umbilic REQUIRED)' > "$scratch/own/CMakeLists.txt"
+cmake -S "$scratch/own" -B "$scratch/own/build" -DCMAKE_PREFIX_PATH="$moved" > "$scratch/own.log"
 rm "$moved/lib/libumbilic.a"
 refused "COMPONENTS;static" "component static is not installed"
 
