@@ -291,7 +291,7 @@ dist:
 
 # The archive, built and installed by someone who has nothing else: as long as any first build.
 dist-check:
-	tests/consumers/archive.sh build
+	MAKE="$(MAKE)" CARGO="$(CARGO)" tests/consumers/archive.sh build
 
 # ---- Debian packages of umbilic ----
 
@@ -314,8 +314,8 @@ deb: | target/release/umbilic $(PROGRAM_DATA)/done
 
 test-packages: $(LIBRARY)
 	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES)
-	CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
-	tests/consumers/archive.sh
+	MAKE="$(MAKE)" CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
+	MAKE="$(MAKE)" CARGO="$(CARGO)" tests/consumers/archive.sh
 
 # ---- the Python package ----
 
