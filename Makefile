@@ -53,7 +53,9 @@ help:
 build: $(LIBRARY)
 	@$(MAKE) --no-print-directory $(PROGRAM_DATA)/done
 
+# cargo links with cc.
 $(LIBRARY): FORCE
+	@command -v cc >/dev/null || .ci/packages gcc
 	$(CARGO) build --release --locked --features cli
 	[ -e target/release/libumbilic.so.0 ] || ln -s libumbilic.so target/release/libumbilic.so.0
 FORCE:
