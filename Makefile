@@ -12,6 +12,8 @@ LANGUAGES ?= node go java csharp lua fortran
 TARGETS ?= topology normals curvature segmentation polyline readers differential
 
 LIBRARY := target/release/libumbilic.so
+# Wherever the environment has cargo put things.
+export CARGO_TARGET_DIR := target
 # Where real meshes are found or fetched to; every mesh test reads them from there.
 MESHES := target/meshes/meshes
 CMAKE_BUILD := target/examples
