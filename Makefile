@@ -12,6 +12,8 @@ LANGUAGES ?= node go java csharp lua fortran
 TARGETS ?= topology normals curvature segmentation polyline readers differential
 
 LIBRARY := target/release/libumbilic.so
+# Wherever the environment has cargo put things.
+export CARGO_TARGET_DIR := target
 # Where real meshes are found or fetched to; every mesh test reads them from there.
 MESHES := target/meshes/meshes
 CMAKE_BUILD := target/examples
@@ -53,7 +55,9 @@ help:
 build: $(LIBRARY)
 	@$(MAKE) --no-print-directory $(PROGRAM_DATA)/done
 
+# cargo links with cc.
 $(LIBRARY): FORCE
+	@command -v cc >/dev/null || .ci/packages gcc
 	$(CARGO) build --release --locked --features cli
 	[ -e target/release/libumbilic.so.0 ] || ln -s libumbilic.so target/release/libumbilic.so.0
 FORCE:
@@ -235,12 +239,18 @@ LIBRARY_LINKS := $(LIBDIR)/libumbilic.so.$(ABI) $(LIBDIR)/libumbilic.so
 # The way from one directory to another: so what is installed can be moved as a whole. Not below /usr, which pkg-config has to recognise
 # in order to leave out directories that compilers search anyway.
 way = $(shell realpath -ms --relative-to="$(1)" "$(2)")
-pkgconfig_prefix = $(if $(filter /usr,$(PREFIX)),/usr,$${pcfiledir}/$(call way,$(PKGCONFIGDIR),$(PREFIX)))
+pkgconfig_prefix = $(if $(filter /usr /usr/,$(PREFIX)),/usr,$${pcfiledir}/$(call way,$(PKGCONFIGDIR),$(PREFIX)))
 fill_in = sed -i -e 's|@VERSION@|$(VERSION)|; s|@ABI@|$(ABI)|; s|@PREFIX@|$(1)|' \
   -e 's|@LIBDIR@|$(call way,$(PREFIX),$(LIBDIR))|; s|@INCLUDEDIR@|$(call way,$(PREFIX),$(INCLUDEDIR))|'
 
+# Lists are cut at blanks, and a path that is not absolute would be taken from here: neither is installed anywhere at all.
+DIRECTORIES := PREFIX BINDIR LIBDIR INCLUDEDIR DATADIR MANDIR PKGCONFIGDIR CMAKEDIR BASHCOMPLETIONDIR ZSHCOMPLETIONDIR FISHCOMPLETIONDIR
+is_directory = $(and $(filter 1,$(words $(1))),$(filter /%,$(1)))
+check_directories = $(foreach name,$(DIRECTORIES),$(if $(call is_directory,$($(name))),,$(error $(name)="$($(name))" is no absolute path without blanks)))
+
 # What is built is installed as it is, so that root needs no cargo.
 install: | target/release/umbilic $(PROGRAM_DATA)/done
+	$(check_directories)
 	@set -e; for entry in $(INSTALLED); do \
 	  IFS=:; set -- $$entry; echo "install $(DESTDIR)$$3"; install -D -m "$$1" "$$2" "$(DESTDIR)$$3"; \
 	done
@@ -250,6 +260,7 @@ install: | target/release/umbilic $(PROGRAM_DATA)/done
 	$(if $(DESTDIR),,if [ "$$(id -u)" -eq 0 ]; then ldconfig; fi)
 
 uninstall:
+	$(check_directories)
 	@for entry in $(INSTALLED) $(LIBRARY_LINKS); do echo "remove $(DESTDIR)$${entry##*:}"; rm -f "$(DESTDIR)$${entry##*:}" || exit 1; done
 	for directory in $(INCLUDEDIR)/umbilic $(CMAKEDIR); do \
 	  if [ -d "$(DESTDIR)$$directory" ]; then rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$directory" || exit 1; fi; \
@@ -284,7 +295,7 @@ dist:
 
 # The archive, built and installed by someone who has nothing else: as long as any first build.
 dist-check:
-	tests/consumers/archive.sh build
+	MAKE="$(MAKE)" CARGO="$(CARGO)" tests/consumers/archive.sh build
 
 # ---- Debian packages of umbilic ----
 
@@ -300,15 +311,15 @@ deb: | target/release/umbilic $(PROGRAM_DATA)/done
 	rm -rf $(DEBIAN)
 	mkdir -p $(DEBIAN)/$(NAME)
 	cp -r bindings/debian $(DEBIAN)/$(NAME)/debian
-	cd $(DEBIAN)/$(NAME)/debian && sed -i -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r $(CURDIR)/CHANGELOG.md)/" \
-	  -e 's/@MAINTAINER@/$(DEBFULLNAME) <$(DEBEMAIL)>/' control changelog
-	cd $(DEBIAN)/$(NAME) && SOURCE=$(CURDIR) dpkg-buildpackage --build=binary --no-sign --no-check-builddeps
+	sed -i -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r CHANGELOG.md)/" \
+	  -e "s|@MAINTAINER@|$$DEBFULLNAME <$$DEBEMAIL>|" $(DEBIAN)/$(NAME)/debian/control $(DEBIAN)/$(NAME)/debian/changelog
+	cd $(DEBIAN)/$(NAME) && SOURCE="$(CURDIR)" dpkg-buildpackage --build=binary --no-sign --no-check-builddeps
 	$(LINTIAN) $(if $(filter 0,$(shell id -u)),--allow-root) $(DEBIAN)/*.changes
 
 test-packages: $(LIBRARY)
 	@.ci/packages $(PACKAGES) $(PACKAGING_PACKAGES)
-	CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
-	tests/consumers/archive.sh
+	MAKE="$(MAKE)" CC="$(CC)" CXX="$(CXX)" tests/consumers/test.sh
+	MAKE="$(MAKE)" CARGO="$(CARGO)" tests/consumers/archive.sh
 
 # ---- the Python package ----
 

@@ -29,7 +29,7 @@ if [ "${1:-}" = build ]; then
   [ "$("$scratch/stage/usr/bin/umbilic" --version)" = "umbilic $version" ]
 else
   # Resolves every crate that is asked for anywhere, and compiles those of the library.
-  cargo metadata --locked --format-version 1 > "$scratch/metadata.json"
-  cargo check --quiet --locked --lib
+  ${CARGO:-cargo} metadata --locked --format-version 1 > "$scratch/metadata.json"
+  ${CARGO:-cargo} check --quiet --locked --lib
 fi
 echo "$(basename "$archive"): the same bytes twice, complete"

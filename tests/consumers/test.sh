@@ -60,6 +60,14 @@ listing "$scratch/stage/opt/umbilic" | diff "$scratch/expected.txt" - || fail "o
 [ "$(ls "$scratch/stage")" = opt ] || fail "something is installed outside the prefix"
 ! grep -r '@[A-Z]*@' "$scratch/stage/opt/umbilic/lib/cmake" "$scratch/stage/opt/umbilic/lib/pkgconfig" || fail "left open"
 
+for prefix in "/opt/two words" opt/umbilic ""; do
+  ! quiet_make install DESTDIR="$scratch/refused" PREFIX="$prefix" > "$scratch/refused.log" 2>&1 || fail "installed to PREFIX=$prefix"
+  grep -q 'no absolute path' "$scratch/refused.log" || fail "PREFIX=$prefix: $(cat "$scratch/refused.log")"
+done
+[ -z "$(find "$scratch" -path "$scratch/refused*" ! -name refused.log)" ] || fail "something is installed to a place that is refused"
+quiet_make install DESTDIR="$scratch/two words" PREFIX=/usr/ > "$scratch/install.log"
+[ "$(PKG_CONFIG_LIBDIR="$scratch/two words/usr/lib/pkgconfig" pkg-config --variable=prefix umbilic)" = /usr ] || fail "PREFIX=/usr/ is not /usr"
+
 # It is used where it was not installed to.
 moved=$scratch/moved/to/umbilic
 mkdir -p "$scratch/moved/to"
@@ -79,6 +87,11 @@ refused "99.0" "version: $version"
 refused "COMPONENTS;fast" "component fast is not installed"
 cmake -S "$scratch/installed/cmake" -B "$scratch/components" -DCMAKE_PREFIX_PATH="$moved" -DWANTED="COMPONENTS;shared;static" \
   > "$scratch/components.log"
+# Where a project has a target of this name already, its own stays.
+mkdir "$scratch/own"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.18)' 'project(own LANGUAGES C)' 'add_library(own INTERFACE)' \
+  'add_library(umbilic::umbilic ALIAS own)' 'find_package(umbilic REQUIRED)' > "$scratch/own/CMakeLists.txt"
+cmake -S "$scratch/own" -B "$scratch/own/build" -DCMAKE_PREFIX_PATH="$moved" > "$scratch/own.log"
 rm "$moved/lib/libumbilic.a"
 refused "COMPONENTS;static" "component static is not installed"
 
@@ -112,9 +125,11 @@ printf '%s\n' opt/umbilic/include/umbilic/other.h opt/umbilic/lib/libumbilic_oth
 
 # ---- make deb ----
 
-DPKG_DEB_COMPRESSOR_LEVEL=1 quiet_make deb DEBIAN="$scratch/packages" > "$scratch/deb.log" 2>&1 || fail "$(cat "$scratch/deb.log")"
+maintainer="Miles O'Brien / packaging"
+DEBFULLNAME=$maintainer DPKG_DEB_COMPRESSOR_LEVEL=1 quiet_make deb DEBIAN="$scratch/packages" > "$scratch/deb.log" 2>&1 || fail "$(cat "$scratch/deb.log")"
 sed -n '/^[EW]: /p' "$scratch/deb.log"
 for package in "$scratch"/packages/*.deb; do dpkg-deb --extract "$package" "$scratch/unpacked"; done
+[ "$(dpkg-deb --field "$scratch"/packages/umbilic_*.deb Maintainer)" = "$maintainer <${DEBEMAIL:-umbilic@localhost}>" ] || fail "maintainer"
 architecture=$(dpkg-architecture -q DEB_HOST_MULTIARCH)
 dpkg-deb --field "$scratch"/packages/libumbilic0_*.deb Depends | grep -q 'libc6 (>=' || fail "libumbilic0 does not depend on libc6"
 dpkg-deb --info "$scratch"/packages/libumbilic0_*.deb shlibs | grep -qF "libumbilic 0 libumbilic0 (>= $version)" || fail "shlibs"

@@ -32,7 +32,7 @@ mkdir -p "$copy/usr/bin" "$copy$installed" target/meshlab/out
 cp /usr/bin/meshlabserver "$copy/usr/bin/"
 cp -R "$installed/." "$copy$installed/"
 DESTDIR=$copy cmake --install "$built" --strip >/dev/null
-xvfb-run -a "$python" -B bindings/meshlab/tests/server.py target/release/libumbilic.so target/release/umbilic "$meshes" \
-  "$copy/usr/bin/meshlabserver" target/meshlab/out
+xvfb-run -a "$python" -B bindings/meshlab/tests/server.py target/release/umbilic "$meshes" "$copy/usr/bin/meshlabserver" \
+  target/meshlab/out
 
 quietly "$built/timing" "$plugin" "$meshes/bunny00.off"
