@@ -130,7 +130,7 @@ test-cpp: $(LIBRARY) | packages
 test-examples: $(LIBRARY) $(MESHES) bench-programs | packages
 	cmake -S examples_c -B $(CMAKE_BUILD) -DCMAKE_BUILD_TYPE=Release \
 	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
-	cmake --build $(CMAKE_BUILD)
+	+cmake --build $(CMAKE_BUILD)
 	$(CMAKE_BUILD)/normals
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/moving
@@ -187,7 +187,7 @@ meshlab-plugin: $(LIBRARY)
 	@.ci/packages $(MESHLAB_PACKAGES)
 	cmake -S bindings/meshlab -B $(MESHLAB)/build -DMESHLAB_SOURCE="$$(bindings/meshlab/source.sh $(MESHLAB))" \
 	  -DUMBILIC_MESHLAB_TESTS=$(MESHLAB_TESTS)
-	cmake --build $(MESHLAB)/build
+	+cmake --build $(MESHLAB)/build
 
 # Its filters in process, and in an unmodified meshlabserver.
 test-meshlab: MESHLAB_TESTS := ON
@@ -392,7 +392,7 @@ bench-instructions:
 
 bench-programs: $(LIBRARY)
 	cmake -S benches/speed -B $(BENCH_TARGET)/build -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
-	cmake --build $(BENCH_TARGET)/build
+	+cmake --build $(BENCH_TARGET)/build
 
 $(BENCH_TARGET)/venv/done: benches/speed/requirements.txt benches/speed/peers.txt
 	$(PYTHON) -m venv $(BENCH_TARGET)/venv
@@ -423,7 +423,7 @@ ACCURACY := target/accuracy
 # Every estimator, and those of other libraries as far as they are there: some minutes.
 accuracy: $(LIBRARY) $(ACCURACY)/venv/done | packages
 	cmake -S benches/accuracy/cpp -B $(ACCURACY)/peers -DCMAKE_BUILD_TYPE=Release
-	cmake --build $(ACCURACY)/peers
+	+cmake --build $(ACCURACY)/peers
 	$(ACCURACY)/venv/bin/python -B benches/accuracy/check.py
 	$(ACCURACY)/venv/bin/python -B benches/accuracy/convergence.py
 	$(ACCURACY)/venv/bin/python -B benches/accuracy/leaderboard.py --peers $(ACCURACY)/peers
