@@ -145,6 +145,7 @@ FINE = {
     "threads": LANGUAGES,
     "forgotten": LANGUAGES,
     "views": ["java"],
+    "inside": ["go"],
     "concurrent": ["go", "java", "csharp"],
 }
 
