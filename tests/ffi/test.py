@@ -134,8 +134,10 @@ OTHERWISE = {
     ("csharp", "closed-curvatures"): "ObjectDisposedException",
     ("fortran", "type"): None,
     ("fortran", "missing"): None,
-    ("fortran", "error-stop"): "ERROR STOP umbilic: topology is null",
+    ("fortran", "error-stop"): r"ERROR STOP umbilic: topology is null \(status 1\)",
+    ("fortran", "error-stop-at"): r"ERROR STOP umbilic: faces.indices\[5] is 3, but there are 3 vertices \(status 9, element 5\)",
     ("fortran", "assigned"): "ERROR STOP umbilic: a topology cannot be assigned",
+    ("fortran", "assigned-arrays"): "ERROR STOP umbilic: a topology cannot be assigned",
 }
 
 # What is no mistake, or is checked inside; with the languages that have it.
