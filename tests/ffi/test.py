@@ -147,6 +147,8 @@ FINE = {
     "threads": LANGUAGES,
     "forgotten": LANGUAGES,
     "views": ["java"],
+    "moving": ["java"],
+    "written": ["java"],
     "inside": ["go"],
     "concurrent": ["go", "java", "csharp"],
 }
