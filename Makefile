@@ -155,7 +155,7 @@ time-ffi: $(LIBRARY) ffi-packages
 	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
 
 ffi-packages:
-	@.ci/packages gcc python3 $(foreach language,$(LANGUAGES),$(FFI_$(language)))
+	@.ci/packages gcc python3 locales $(foreach language,$(LANGUAGES),$(FFI_$(language)))
 
 # ---- the binary interface ----
 
