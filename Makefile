@@ -26,7 +26,7 @@ help:
 	@echo "make demo [MESH=file]     normals and curvatures of a mesh: tables, PLYs and pictures in target/demo"
 	@echo "make test                 every test: Rust, C, C++, command line, peers; installs Debian packages if missing"
 	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
-	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
+	@echo "make time-ffi             what a call takes through each of them, and what the library takes of it [MESH=file.off]"
 	@echo "make abi                  the binary interface against that of version 0.1.0"
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
@@ -151,8 +151,8 @@ test-ffi: $(LIBRARY) $(MESHES) ffi-packages
 	CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
 
 # Lines of host, quantity, copies, milliseconds of the library, milliseconds of the host.
-time-ffi: $(LIBRARY) ffi-packages
-	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
+time-ffi: $(LIBRARY) $(MESHES) ffi-packages
+	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time $(if $(MESH),"$(MESH)",$(MESHES)/refined_elephant.off) $(LANGUAGES)
 
 ffi-packages:
 	@.ci/packages gcc python3 locales $(foreach language,$(LANGUAGES),$(FFI_$(language)))
