@@ -37,7 +37,7 @@ help:
 	@echo "make test-python          the Python package, part of make test: a wheel, its tests, examples, types and pictures"
 	@echo "make meshlab-plugin       filters for Debian's MeshLab: bindings/meshlab/README.md; make test-meshlab tests them"
 	@echo "make test-ffi             bindings for other languages, against C and against mistakes [LANGUAGES=\"go lua\"]"
-	@echo "make time-ffi MESH=file   what a call takes through each of them, and what the library takes of it"
+	@echo "make time-ffi             what a call takes through each of them, and what the library takes of it [MESH=file.off]"
 	@echo "make abi                  the binary interface against that of version 0.1.0"
 	@echo "make sanitize             C and C++ programs under ASan, LSan, UBSan, TSan and valgrind [SANITIZE=...]"
 	@echo "make bench [BENCH=...]    everything against a plain C scatter loop and seven libraries: docs/benchmarks.md"
@@ -169,11 +169,11 @@ test-ffi: $(LIBRARY) $(MESHES) ffi-packages
 	CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) $(MESHES) $(LANGUAGES)
 
 # Lines of host, quantity, copies, milliseconds of the library, milliseconds of the host.
-time-ffi: $(LIBRARY) ffi-packages
-	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time "$(MESH)" $(LANGUAGES)
+time-ffi: $(LIBRARY) $(MESHES) ffi-packages
+	@CC="$(CC)" $(PYTHON) -B tests/ffi/test.py $(LIBRARY) --time $(if $(MESH),"$(MESH)",$(MESHES)/refined_elephant.off) $(LANGUAGES)
 
 ffi-packages:
-	@.ci/packages gcc python3 $(foreach language,$(LANGUAGES),$(FFI_$(language)))
+	@.ci/packages gcc python3 locales $(foreach language,$(LANGUAGES),$(FFI_$(language)))
 
 # ---- MeshLab ----
 

@@ -28,7 +28,9 @@
 
 #include <umbilic.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -1932,12 +1934,13 @@ bool gaps_make_no_difference(const Vector *data, std::size_t count, const Exists
   return true;
 }
 
-/** Puts vertices that do not exist where the first one lies that does. */
+/** Puts vertices that do not exist where the first one lies that does and is finite: none of them is to blame for one that is not. */
 template <class Scalar, class Exists>
 void fill_gaps(std::vector<std::array<Scalar, 3>> &positions, const Exists &exists) {
   std::array<Scalar, 3> first = {0, 0, 0};
   for (std::size_t v = 0; v < positions.size(); v++) {
-    if (!exists(v)) continue;
+    const auto is_finite = [](Scalar coordinate) { return std::isfinite(coordinate); };
+    if (!exists(v) || !std::all_of(positions[v].begin(), positions[v].end(), is_finite)) continue;
     first = positions[v];
     break;
   }

@@ -6,6 +6,7 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Runtime.InteropServices;
@@ -16,8 +17,15 @@ internal class Mesh {
   public uint[] Indices, Offsets;
   public int VertexCount;
 
-  // Mono's double.Parse is at times one off in the last bit.
-  [DllImport("libc")] private static extern double strtod(string text, IntPtr end);
+  // Mono's double.Parse is at times one off in the last bit, and strtod looks for the decimal point of the user's language.
+  [DllImport("libc")] private static extern IntPtr newlocale(int mask, string name, IntPtr basis);
+  [DllImport("libc")] private static extern double strtod_l(string text, IntPtr end, IntPtr locale);
+  private static readonly IntPtr Plain = newlocale(1 << 1, "C", IntPtr.Zero); // LC_NUMERIC_MASK
+
+  private static double Number(string text) {
+    double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture); // throws if it is none
+    return strtod_l(text, IntPtr.Zero, Plain);
+  }
 
   // The lines of an OFF file that say something, as words.
   private static IEnumerable<string[]> Lines(string path) {
@@ -41,13 +49,15 @@ internal class Mesh {
       var positions = new double[3 * vertices];
       for (int vertex = 0; vertex < vertices; vertex++) {
         string[] words = next();
-        for (int axis = 0; axis < 3; axis++) positions[3 * vertex + axis] = strtod(words[axis], IntPtr.Zero);
+        for (int axis = 0; axis < 3; axis++) positions[3 * vertex + axis] = Number(words[axis]);
       }
       var indices = new List<uint>();
       var offsets = new uint[faces + 1];
       for (int face = 0; face < faces; face++) {
         string[] words = next();
-        indices.AddRange(words.Skip(1).Take(int.Parse(words[0])).Select(uint.Parse));
+        uint corners = uint.Parse(words[0]);
+        if (words.Length <= corners) throw new InvalidDataException(path + ": cannot read: " + string.Join(" ", words));
+        indices.AddRange(words.Skip(1).Take((int)corners).Select(uint.Parse));
         offsets[face + 1] = (uint)indices.Count;
       }
       return new Mesh { Positions = positions, Indices = indices.ToArray(), Offsets = offsets, VertexCount = vertices };

@@ -44,51 +44,66 @@ contains
     call fail('umbilic: ' // trim(errmsg) // trim(where))
   end subroutine
 
-  !> The next line of an OFF file that says something.
+  !> The next line of an OFF file that says something, however long.
   function next(unit) result(line)
     integer, intent(in) :: unit
-    character(1024) :: line
-    integer :: comment, stat
+    character(:), allocatable :: line
+    character(1024) :: part
+    integer :: length, stat
     do
-      read(unit, '(a)', iostat=stat) line
-      if (stat /= 0) call fail('the file ends early')
-      comment = index(line, '#')
-      if (comment > 0) line(comment:) = ' '
+      line = ''
+      do
+        read(unit, '(a)', advance='no', size=length, iostat=stat) part
+        line = line // part(:length)
+        if (stat /= 0) exit
+      end do
+      if (.not. is_iostat_eor(stat) .and. len(line) == 0) call fail('the file ends early')
+      if (index(line, '#') > 0) line = line(:index(line, '#') - 1)
       line = adjustl(line)
-      if (line /= ' ') return
+      if (verify(line, ' ' // achar(9)) > 0) return
     end do
   end function
+
+  subroutine need(good, line)
+    logical, intent(in) :: good
+    character(*), intent(in) :: line
+    if (.not. good) call fail('cannot read: ' // line)
+  end subroutine
 
   subroutine read_off(path)
     character(*), intent(in) :: path
     integer :: unit, stat, face_count, face, vertex, corner, corners, skipped
     integer(c_int32_t), allocatable :: longer(:)
-    character(1024) :: line
+    character(:), allocatable :: line
     character(256) :: message
 
     open(newunit=unit, file=path, status='old', action='read', iostat=stat, iomsg=message)
     if (stat /= 0) call fail(trim(message))
     line = next(unit)
-    if (line(:3) /= 'OFF') call fail(path // ': no OFF file')
+    if (index(line // ' ', 'OFF ') /= 1) call fail(path // ': no OFF file')
     line = line(4:)
     if (line == ' ') line = next(unit)
-    read(line, *) vertex_count, face_count
+    read(line, *, iostat=stat) vertex_count, face_count
+    call need(stat == 0 .and. vertex_count >= 0 .and. face_count >= 0, line)
     allocate(positions(3, vertex_count), offsets(face_count + 1), indices(4 * face_count))
     do vertex = 1, vertex_count
       line = next(unit)
-      read(line, *) positions(:, vertex)
+      read(line, *, iostat=stat) positions(:, vertex)
+      call need(stat == 0, line)
     end do
     offsets(1) = 0
     do face = 1, face_count
       line = next(unit)
-      read(line, *) corners
+      read(line, *, iostat=stat) corners
+      call need(stat == 0 .and. corners >= 0 .and. corners <= len(line), line)
       offsets(face + 1) = offsets(face) + corners
       if (offsets(face + 1) > size(indices)) then
         allocate(longer(2 * offsets(face + 1)))
         longer(:size(indices)) = indices
         call move_alloc(longer, indices)
       end if
-      read(line, *) skipped, (indices(offsets(face) + corner), corner = 1, corners)
+      read(line, *, iostat=stat) skipped, (indices(offsets(face) + corner), corner = 1, corners)
+      call need(stat == 0, line)
     end do
     indices = indices(:offsets(face_count + 1))
     close(unit)

@@ -9,7 +9,8 @@
 ! contiguous the compiler copies). Without stat, what the library refuses ends the program with its message (error stop); with
 ! stat, which is then a UMB_ERROR_ constant or 0, errmsg receives that message (240 characters are enough for any) and element the
 ! offending corner, face, vertex or value, -1 if there is none.
-! A topology is freed by destroy, or where its variable ends; any number of threads may use it meanwhile.
+! A topology is freed by destroy, or where its variable ends; any number of threads may use it meanwhile. A copy by allocate with source=,
+! which no module can refuse, would be freed a second time.
 module umbilic
   use umbilic_c
   implicit none
@@ -141,6 +142,7 @@ contains
     integer(c_int64_t), intent(out), optional :: element
     character(*), intent(inout), optional :: errmsg
     character(size(error%message)) :: message
+    character(64) :: where
     integer :: i
 
     if (present(stat)) stat = status
@@ -151,18 +153,23 @@ contains
       if (error%message(i) == c_null_char) exit
       message(i:i) = error%message(i)
     end do
-    if (.not. present(stat)) error stop 'umbilic: ' // trim(message)
+    if (.not. present(stat)) then
+      write(where, '(a, i0, a, i0, a)') ' (status ', status, ', element ', error%element, ')'
+      if (error%element < 0) write(where, '(a, i0, a)') ' (status ', status, ')'
+      error stop 'umbilic: ' // trim(message) // trim(where)
+    end if
     if (present(element)) element = error%element
     if (present(errmsg)) errmsg = message
   end subroutine
 
-  subroutine refuse_assignment(self, other)
+  ! Elemental, this and the next one, so that arrays of topologies are no exception.
+  impure elemental subroutine refuse_assignment(self, other)
     class(topology), intent(inout) :: self
     class(topology), intent(in) :: other
     error stop 'umbilic: a topology cannot be assigned'
   end subroutine
 
-  subroutine finalise(self)
+  impure elemental subroutine finalise(self)
     type(topology), intent(inout) :: self
     call self%destroy()
   end subroutine

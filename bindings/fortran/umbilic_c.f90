@@ -84,7 +84,7 @@ module umbilic_c
       type(umb_faces), intent(in) :: faces
       integer(c_size_t), value :: vertex_count
       type(umb_topology_options), intent(in) :: options
-      type(c_ptr), intent(out) :: topology
+      type(c_ptr), intent(inout) :: topology ! kept as it was where the call fails
       type(umb_error), intent(inout) :: error
       integer(c_int32_t) :: status
     end function

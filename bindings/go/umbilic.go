@@ -14,14 +14,15 @@ package umbilic
 #include <umbilic.h>
 
 // Pointers to Go's memory may be handed to C, but not structs of Go's that hold such pointers: these are filled here, on C's stack.
+// A pointer to numbers may be one into a larger value that has pointers as well; an untyped one may not.
 
-static umb_output output(void *data) {
+static umb_output output(double *data) {
   umb_output output = {.data = data, .scalar = UMB_SCALAR_F64};
   return output;
 }
 
-static umb_status create(const void *indices, size_t index_count, const void *offsets, size_t face_count, size_t vertex_count,
-                         uint32_t threads, umb_topology **topology, umb_error *error) {
+static umb_status create(const uint32_t *indices, size_t index_count, const uint32_t *offsets, size_t face_count,
+                         size_t vertex_count, uint32_t threads, umb_topology **topology, umb_error *error) {
   umb_faces faces = {.indices = indices, .index_count = index_count, .offsets = offsets, .face_count = face_count};
   umb_topology_options options = UMB_TOPOLOGY_OPTIONS_INIT;
   options.threads = threads;
@@ -29,8 +30,8 @@ static umb_status create(const void *indices, size_t index_count, const void *of
   return umb_topology_create(&faces, vertex_count, &options, topology, error);
 }
 
-static umb_status normals(const umb_topology *topology, const void *positions, size_t count, uint32_t threads, void *normal,
-                          void *status, umb_error *error) {
+static umb_status normals(const umb_topology *topology, const double *positions, size_t count, uint32_t threads, double *normal,
+                          uint8_t *status, umb_error *error) {
   umb_points points = {.data = positions, .count = count, .scalar = UMB_SCALAR_F64};
   umb_normal_options options = UMB_NORMAL_OPTIONS_INIT;
   umb_normal_outputs outputs = UMB_NORMAL_OUTPUTS_INIT;
@@ -41,8 +42,9 @@ static umb_status normals(const umb_topology *topology, const void *positions, s
   return umb_vertex_normals(topology, &points, &options, &outputs, error);
 }
 
-static umb_status curvatures(const umb_topology *topology, const void *positions, size_t count, uint32_t threads, void *k1, void *k2,
-                             void *direction1, void *direction2, void *mean, void *gaussian, void *status, umb_error *error) {
+static umb_status curvatures(const umb_topology *topology, const double *positions, size_t count, uint32_t threads, double *k1,
+                             double *k2, double *direction1, double *direction2, double *mean, double *gaussian, uint8_t *status,
+                             umb_error *error) {
   umb_points points = {.data = positions, .count = count, .scalar = UMB_SCALAR_F64};
   umb_curvature_options options = UMB_CURVATURE_OPTIONS_INIT;
   umb_curvature_outputs outputs = UMB_CURVATURE_OUTPUTS_INIT;
@@ -114,8 +116,8 @@ func NewTopology(indices, offsets []uint32, vertexCount int, threads uint32) (*T
 	}
 	var failure C.umb_error
 	t := new(Topology)
-	status := C.create(first(indices), C.size_t(len(indices)), first(offsets), C.size_t(faceCount), C.size_t(vertexCount),
-		C.uint32_t(threads), &t.handle, &failure)
+	status := C.create(first[C.uint32_t](indices), C.size_t(len(indices)), first[C.uint32_t](offsets), C.size_t(faceCount),
+		C.size_t(vertexCount), C.uint32_t(threads), &t.handle, &failure)
 	if err := errorOf(status, &failure); err != nil {
 		return nil, err
 	}
@@ -146,8 +148,8 @@ func (t *Topology) VertexNormals(positions [][3]float64, threads uint32) (*Norma
 	count := C.umb_topology_vertex_count(t.handle)
 	normals := &Normals{make([][3]float64, count), make([]uint8, count)}
 	var failure C.umb_error
-	status := C.normals(t.handle, first(positions), C.size_t(len(positions)), C.uint32_t(threads), first(normals.Normal),
-		first(normals.Status), &failure)
+	status := C.normals(t.handle, first[C.double](positions), C.size_t(len(positions)), C.uint32_t(threads),
+		first[C.double](normals.Normal), first[C.uint8_t](normals.Status), &failure)
 	if err := errorOf(status, &failure); err != nil {
 		return nil, err
 	}
@@ -176,9 +178,9 @@ func (t *Topology) Curvatures(positions [][3]float64, threads uint32) (*Curvatur
 		Status:     make([]uint8, count),
 	}
 	var failure C.umb_error
-	status := C.curvatures(t.handle, first(positions), C.size_t(len(positions)), C.uint32_t(threads), first(found.K1),
-		first(found.K2), first(found.Direction1), first(found.Direction2), first(found.Mean), first(found.Gaussian),
-		first(found.Status), &failure)
+	status := C.curvatures(t.handle, first[C.double](positions), C.size_t(len(positions)), C.uint32_t(threads),
+		first[C.double](found.K1), first[C.double](found.K2), first[C.double](found.Direction1), first[C.double](found.Direction2),
+		first[C.double](found.Mean), first[C.double](found.Gaussian), first[C.uint8_t](found.Status), &failure)
 	if err := errorOf(status, &failure); err != nil {
 		return nil, err
 	}
@@ -186,9 +188,9 @@ func (t *Topology) Curvatures(positions [][3]float64, threads uint32) (*Curvatur
 }
 
 // Where C finds a slice; nil for one without elements.
-func first[T any](slice []T) unsafe.Pointer {
+func first[Number, T any](slice []T) *Number {
 	if len(slice) == 0 {
 		return nil
 	}
-	return unsafe.Pointer(&slice[0])
+	return (*Number)(unsafe.Pointer(&slice[0]))
 }

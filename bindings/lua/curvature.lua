@@ -20,22 +20,32 @@ local function lines(file)
   end
 end
 
+-- The number at a place of a line; and one from 0, as indices and counts are.
+local function number(words, place)
+  return tonumber(words[place] or "") or error("cannot read: " .. table.concat(words, " "), 0)
+end
+local function natural(words, place)
+  local value = number(words, place)
+  if value % 1 ~= 0 or value < 0 or value >= 2 ^ 32 then error("cannot read: " .. table.concat(words, " "), 0) end
+  return value
+end
+
 local function read_off(path)
   local file = assert(io.open(path))
   local line = lines(file)
   local counts = line()
   assert(table.remove(counts, 1) == "OFF", path .. ": no OFF file")
   if #counts == 0 then counts = line() end
-  local vertex_count, face_count = tonumber(counts[1]), tonumber(counts[2])
+  local vertex_count, face_count = natural(counts, 1), natural(counts, 2)
   local positions = ffi.new("double[?]", 3 * vertex_count)
   for vertex = 0, vertex_count - 1 do
     local words = line()
-    for axis = 0, 2 do positions[3 * vertex + axis] = tonumber(words[axis + 1]) end
+    for axis = 0, 2 do positions[3 * vertex + axis] = number(words, axis + 1) end
   end
   local corners, offsets = {}, ffi.new("uint32_t[?]", face_count + 1)
   for face = 1, face_count do
     local words = line()
-    for corner = 1, tonumber(words[1]) do corners[#corners + 1] = tonumber(words[corner + 1]) end
+    for corner = 1, natural(words, 1) do corners[#corners + 1] = natural(words, corner + 1) end
     offsets[face] = #corners
   end
   file:close()

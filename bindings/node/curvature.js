@@ -12,11 +12,16 @@ function readOff(path) {
     .map((line) => line.split(/\s+/));
   const [magic, ...rest] = lines.shift() ?? [];
   if (magic !== 'OFF') throw new Error(`${path}: no OFF file`);
-  const [vertexCount, faceCount] = (rest.length > 0 ? rest : lines.shift()).map(Number);
-  if (lines.length < vertexCount + faceCount) throw new Error(`${path}: the file ends early`);
+  const [vertexCount, faceCount] = (rest.length > 0 ? rest : lines.shift() ?? []).map(Number);
+  if (!(lines.length >= vertexCount + faceCount)) throw new Error(`${path}: the file ends early`);
   const positions = Float64Array.from(lines.slice(0, vertexCount).flatMap((line) => line.slice(0, 3)), Number);
-  const faces = lines.slice(vertexCount, vertexCount + faceCount).map((line) => line.slice(1, 1 + Number(line[0])));
-  const indices = Uint32Array.from(faces.flat(), Number);
+  const faces = lines.slice(vertexCount, vertexCount + faceCount).map((line) => {
+    const [corners, ...numbers] = line.map(Number);
+    const face = numbers.slice(0, corners);
+    if (face.length !== corners || !face.every((index) => index >>> 0 === index)) throw new Error(`${path}: cannot read: ${line.join(' ')}`);
+    return face;
+  });
+  const indices = Uint32Array.from(faces.flat());
   const offsets = new Uint32Array(faceCount + 1);
   faces.forEach((face, f) => { offsets[f + 1] = offsets[f] + face.length; });
   return { positions, indices, offsets, vertexCount };

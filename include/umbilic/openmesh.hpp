@@ -64,7 +64,8 @@ class positions {
 
  public:
   explicit positions(const Mesh &mesh) : positions(mesh, has_deleted_vertices(mesh)) {}
-  positions(const Mesh &mesh, bool has_gaps) {
+  positions(const Mesh &mesh, bool had_gaps) {
+    const bool has_gaps = had_gaps && mesh.has_vertex_status(); // a mesh of before is refused by its size
     const auto exists = [&](std::size_t v) { return !mesh.status(mesh.vertex_handle(static_cast<unsigned>(v))).deleted(); };
     if constexpr (IN_PLACE<Point>) {
       view_ = points(mesh.points(), mesh.n_vertices());

@@ -224,6 +224,28 @@ void deleted() {
     }
     CHECK(compute(copy) == expected);
   }
+  // It is not the deleted vertices that are to blame for one that is there.
+  auto damaged = mesh;
+  damaged.delete_vertex(OpenMesh::VertexHandle(0), false);
+  for (const int v : {0, 1}) {
+    damaged.set_point(OpenMesh::VertexHandle(v), typename Mesh::Point(static_cast<um::detail::scalar<Mesh>>(NAN)));
+  }
+  try {
+    um::halfedge_normals(damaged);
+    CHECK(false);
+  } catch (const umbilic::error &failure) {
+    CHECK(failure.status() == UMB_ERROR_NON_FINITE && failure.element() == 1);
+  }
+  // Rings of before, on a mesh that has lost its garbage and the marks of it.
+  auto collected = mesh;
+  collected.garbage_collection();
+  collected.release_vertex_status(), collected.release_edge_status(), collected.release_face_status(), collected.release_halfedge_status();
+  try {
+    um::vertex_normals(collected, rings);
+    CHECK(false);
+  } catch (const umbilic::error &failure) {
+    CHECK(failure.status() == UMB_ERROR_SIZE);
+  }
 
   // A list of the caller's stays his.
   umbilic::normal_options options;

@@ -134,8 +134,10 @@ OTHERWISE = {
     ("csharp", "closed-curvatures"): "ObjectDisposedException",
     ("fortran", "type"): None,
     ("fortran", "missing"): None,
-    ("fortran", "error-stop"): "ERROR STOP umbilic: topology is null",
+    ("fortran", "error-stop"): r"ERROR STOP umbilic: topology is null \(status 1\)",
+    ("fortran", "error-stop-at"): r"ERROR STOP umbilic: faces.indices\[5] is 3, but there are 3 vertices \(status 9, element 5\)",
     ("fortran", "assigned"): "ERROR STOP umbilic: a topology cannot be assigned",
+    ("fortran", "assigned-arrays"): "ERROR STOP umbilic: a topology cannot be assigned",
 }
 
 # What is no mistake, or is checked inside; with the languages that have it.
@@ -145,6 +147,9 @@ FINE = {
     "threads": LANGUAGES,
     "forgotten": LANGUAGES,
     "views": ["java"],
+    "moving": ["java"],
+    "written": ["java"],
+    "inside": ["go"],
     "concurrent": ["go", "java", "csharp"],
 }
 
@@ -166,14 +171,28 @@ GOOD_FILES = {
 4 2 0 3 5
 """,
     "empty.off": "OFF\n0 0 0\n",
+    # Lines longer than any buffer: of a polygon, and of a comment.
+    "polygon.off": "OFF 600 1 0\n"
+    + "".join(f"{vertex} {vertex * vertex} 0 # {'long ' * 20000 if vertex == 7 else ''}\n" for vertex in range(600))
+    + " ".join(map(str, [600, *range(600)])),
 }
 
 # Files that they refuse, with status and element, or the words of a language's own error.
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+# What each says of a line that has too little, or no numbers.
+WRONG_LINE = "cannot read|EOF|ParseUint|ParseFloat|ArrayIndexOutOfBounds|IndexOutOfRange|(Number)?FormatException|OverflowException"
 BAD_FILES = {
     "index.off": (TETRAHEDRON.replace("3 0 1 3", "3 0 4 3"), (9, 4)),
     "nan.off": (TETRAHEDRON.replace("0 1 0\n", "0 NaN 0\n"), (10, 2)),
     "short.off": (TETRAHEDRON[:-8], "ends early|EOF"),
+    "counts.off": ("OFF\n", "ends early|EOF"),
+    "face.off": (TETRAHEDRON.replace("3 0 1 3", "3 0 1"), WRONG_LINE),
+    "corners.off": (TETRAHEDRON.replace("3 0 1 3", "2000000000 0 1 3"), WRONG_LINE),
+    "no-corners.off": (TETRAHEDRON.replace("3 0 1 3", "-3 0 1 3"), WRONG_LINE),
+    "word.off": (TETRAHEDRON.replace("3 0 1 3", "3 0 one 3"), WRONG_LINE),
+    "large.off": (TETRAHEDRON.replace("3 0 1 3", f"3 0 {2**32 + 1} 3"), WRONG_LINE),
+    "position.off": (TETRAHEDRON.replace("1 0 0", "1 0"), WRONG_LINE + "|\\(status 7\\)"),
+    "word-position.off": (TETRAHEDRON.replace("1 0 0", "one 0 0"), WRONG_LINE + "|\\(status 10, element 1\\)"),
     "nothing.off": ("", "ends early|EOF|no OFF file"),
     "picture.off": ("P6\n", "no OFF file"),
     "missing.off": (None, "(?i)no such file|could not find|NoSuchFile"),
@@ -258,7 +277,9 @@ class Tests:
 
 
 def environment(library, **more):
-    return dict(os.environ, LD_LIBRARY_PATH=str(library.parent), **more)
+    """With a comma for the decimal point, as many users have it."""
+    variables = {name: value for name, value in os.environ.items() if name != "LC_ALL"}
+    return {**variables, "LOCPATH": str(BUILT / "locale"), "LC_NUMERIC": "de_DE.UTF-8", "LD_LIBRARY_PATH": str(library.parent), **more}
 
 
 def recorded(command, library, **more):
@@ -307,6 +328,8 @@ def main(library, what, *rest):
     build([compiler, *strict, "-c", "tests/c/layout.c", "-o", BUILT / "layout.o"])
     build([compiler, *strict, "tests/ffi/reference.c", "-o", BUILT / "reference", library, f"-Wl,-rpath,{library.parent}"])
     build([compiler, *strict, "-shared", "-fPIC", "tests/ffi/recorder.c", "-o", BUILT / "recorder/libumbilic.so.0"])
+    (BUILT / "locale").mkdir(exist_ok=True)
+    build(["localedef", "-i", "de_DE", "-f", "UTF-8", BUILT / "locale/de_DE.UTF-8"])
     for name, text in GOOD_FILES.items():
         (BUILT / name).write_text(text)
     failures = 0

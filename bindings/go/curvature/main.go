@@ -10,6 +10,7 @@ import (
 	"fmt"
 	"io"
 	"log"
+	"math"
 	"os"
 	"strconv"
 	"strings"
@@ -71,6 +72,7 @@ func readOff(path string) (positions [][3]float64, indices, offsets []uint32, er
 	}
 	defer file.Close()
 	r := &reader{lines: bufio.NewScanner(file)}
+	r.lines.Buffer(nil, math.MaxInt) // a polygon's line may be long
 	counts := r.line()
 	if r.err == nil && counts[0] != "OFF" {
 		return nil, nil, nil, fmt.Errorf("%s: no OFF file", path)
@@ -87,7 +89,7 @@ func readOff(path string) (positions [][3]float64, indices, offsets []uint32, er
 	for face := 0; face < faceCount && r.err == nil; face++ {
 		words := r.line()
 		corners := r.count(words, 0)
-		for corner := 1; corner <= corners; corner++ {
+		for corner := 1; corner <= corners && r.err == nil; corner++ {
 			indices = append(indices, uint32(r.count(words, corner)))
 		}
 		offsets = append(offsets, uint32(len(indices)))

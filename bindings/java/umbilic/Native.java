@@ -6,7 +6,6 @@ import com.sun.jna.Structure;
 import com.sun.jna.Structure.FieldOrder;
 import com.sun.jna.ptr.PointerByReference;
 import java.nio.Buffer;
-import java.util.OptionalLong;
 
 /** The functions and structs of include/umbilic.h, field by field, for 64-bit machines. */
 final class Native {
@@ -38,7 +37,7 @@ final class Native {
   static void check(int status, Error error) {
     if (status == 0) return;
     String message = com.sun.jna.Native.toString(error.message, "UTF-8");
-    throw new UmbilicException(status, message, error.element == NO_ELEMENT ? OptionalLong.empty() : OptionalLong.of(error.element));
+    throw new UmbilicException(status, message, error.element == NO_ELEMENT ? null : error.element);
   }
 
   /** A struct that starts with its size. */

@@ -6,7 +6,6 @@ import java.lang.ref.Cleaner;
 import java.lang.ref.Reference;
 import java.nio.DoubleBuffer;
 import java.nio.IntBuffer;
-import java.util.OptionalLong;
 import java.util.concurrent.locks.ReadWriteLock;
 import java.util.concurrent.locks.ReentrantReadWriteLock;
 
@@ -51,10 +50,10 @@ public final class Topology implements AutoCloseable {
   public Topology(IntBuffer indices, IntBuffer offsets, int vertexCount, int threads) {
     var faces = new Native.Faces();
     faces.indices = Buffers.direct(indices);
-    faces.index_count = indices.remaining();
+    faces.index_count = faces.indices.remaining();
     if (offsets != null) {
       faces.offsets = Buffers.direct(offsets);
-      faces.face_count = offsets.remaining() - 1;
+      faces.face_count = faces.offsets.remaining() - 1;
     }
     var options = new Native.TopologyOptions();
     options.threads = threads;
@@ -131,13 +130,14 @@ public final class Topology implements AutoCloseable {
     return (int) Native.LIBRARY.umb_topology_vertex_count(handle.pointer);
   }
 
-  private static Native.Points points(DoubleBuffer positions) {
-    if (positions.remaining() % 3 != 0) {
-      throw new UmbilicException(Native.SIZE, "positions are no multiple of 3 numbers", OptionalLong.empty());
-    }
+  // Lengths are those of what is handed over: the caller's buffer may get another limit meanwhile.
+  static Native.Points points(DoubleBuffer positions) {
     var points = new Native.Points();
     points.data = Buffers.direct(positions);
-    points.count = positions.remaining() / 3;
+    if (points.data.remaining() % 3 != 0) {
+      throw new UmbilicException(Native.SIZE, "positions are no multiple of 3 numbers", null);
+    }
+    points.count = points.data.remaining() / 3;
     points.scalar = Native.F64;
     return points;
   }

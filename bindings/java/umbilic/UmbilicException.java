@@ -7,10 +7,10 @@ public class UmbilicException extends RuntimeException {
   private static final long serialVersionUID = 1;
 
   private final int status;
-  private final transient OptionalLong element;
+  private final Long element; // or null: an OptionalLong cannot be serialised
 
-  UmbilicException(int status, String message, OptionalLong element) {
-    super(message + " (status " + status + (element.isPresent() ? ", element " + element.getAsLong() : "") + ")");
+  UmbilicException(int status, String message, Long element) {
+    super(message + " (status " + status + (element == null ? "" : ", element " + element) + ")");
     this.status = status;
     this.element = element;
   }
@@ -22,6 +22,6 @@ public class UmbilicException extends RuntimeException {
 
   /** The offending corner, face, vertex or value. */
   public OptionalLong element() {
-    return element;
+    return element == null ? OptionalLong.empty() : OptionalLong.of(element);
   }
 }

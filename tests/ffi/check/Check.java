@@ -2,6 +2,12 @@
 package umbilic;
 
 import com.sun.jna.Structure;
+import java.io.ByteArrayInputStream;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.ObjectInputStream;
+import java.io.ObjectOutputStream;
+import java.nio.BufferOverflowException;
 import java.nio.ByteBuffer;
 import java.nio.DoubleBuffer;
 import java.nio.IntBuffer;
@@ -9,11 +15,13 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.OptionalLong;
 import java.util.concurrent.Callable;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicBoolean;
 
 class Check {
   interface Action {
@@ -70,6 +78,42 @@ class Check {
       }
       check(direct.position() == 3);
     }
+  }
+
+  /** Another thread moves the limit of a buffer: what is counted is what is handed over. */
+  static void moving() throws InterruptedException {
+    DoubleBuffer shared = positions();
+    var done = new AtomicBoolean();
+    var mover = new Thread(() -> {
+      while (!done.get()) shared.limit(9).limit(12);
+    });
+    mover.start();
+    try {
+      tetrahedron().close();
+      for (int i = 0; i < 200_000; i++) {
+        try {
+          Native.Points points = Topology.points(shared);
+          check(3 * points.count == points.data.remaining());
+        } catch (BufferOverflowException moved) {
+          // A copy that turned out too short.
+        }
+      }
+    } finally {
+      done.set(true);
+      mover.join();
+    }
+  }
+
+  /** An exception that has been written and read again. */
+  static void written() throws IOException, ClassNotFoundException {
+    var bytes = new ByteArrayOutputStream();
+    try (Topology mesh = tetrahedron()) {
+      mesh.curvatures(positions().put(7, Double.NaN));
+    } catch (UmbilicException refusal) {
+      new ObjectOutputStream(bytes).writeObject(refusal);
+    }
+    var read = (UmbilicException) new ObjectInputStream(new ByteArrayInputStream(bytes.toByteArray())).readObject();
+    check(read.status() == 10 && read.element().equals(OptionalLong.of(2)));
   }
 
   static void threads() {
@@ -133,6 +177,8 @@ class Check {
           Map.entry("empty", Check::empty),
           Map.entry("threads", Check::threads),
           Map.entry("views", Check::views),
+          Map.entry("moving", Check::moving),
+          Map.entry("written", Check::written),
           Map.entry("forgotten", Check::forgotten),
           Map.entry("concurrent", Check::concurrent));
 

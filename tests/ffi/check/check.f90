@@ -59,8 +59,12 @@ program check
   case ('error-stop')
     call mesh%destroy()
     call mesh%curvatures(positions, found)
+  case ('error-stop-at')
+    call mesh%create(indices, 3)
   case ('assigned')
     other = mesh
+  case ('assigned-arrays')
+    call assign()
   case ('twice')
     call mesh%destroy()
     call mesh%destroy()
@@ -81,6 +85,7 @@ program check
   case ('forgotten')
     do i = 1, 10
       call forget()
+      call forget_several()
     end do
   case default
     error stop 'what?'
@@ -99,6 +104,21 @@ contains
   subroutine forget()
     type(topology) :: local
     call local%create(indices, 4)
+  end subroutine
+
+  subroutine forget_several()
+    type(topology) :: locals(2)
+    type(topology), allocatable :: more(:, :)
+    allocate(more(1, 2))
+    call locals(2)%create(indices, 4)
+    call more(1, 1)%create(indices, 4)
+    call more(1, 2)%create(indices, 4)
+  end subroutine
+
+  subroutine assign()
+    type(topology) :: locals(2), others(2)
+    call locals(1)%create(indices, 4)
+    others = locals
   end subroutine
 
   subroutine size_of(struct, bytes)

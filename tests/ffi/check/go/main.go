@@ -92,6 +92,21 @@ var actions = map[string]func(){
 		one.Close()
 		three.Close()
 	},
+	// Slices of a value that has pointers as well: cgo takes no such value, but may be told of the numbers alone.
+	"inside": func() {
+		inside := &struct {
+			name      *string
+			indices   [12]uint32
+			offsets   [5]uint32
+			positions [4][3]float64
+		}{name: new(string), offsets: [5]uint32{0, 3, 6, 9, 12}}
+		copy(inside.indices[:], indices())
+		copy(inside.positions[:], positions())
+		mesh := topology(inside.indices[:], inside.offsets[:], 4, 0)
+		check(reflect.DeepEqual(normals(mesh, inside.positions[:], 0), normals(mesh, positions(), 0)))
+		check(reflect.DeepEqual(curvatures(mesh, inside.positions[:], 0), curvatures(mesh, positions(), 0)))
+		mesh.Close()
+	},
 	"forgotten": func() {
 		for i := 0; i < 10; i++ {
 			tetrahedron()
