@@ -1,11 +1,13 @@
 """Threads, vectors, progress and cancelling; many Python threads, forks, and what must not crash."""
 
+import gc
 import os
 import signal
 import subprocess
 import sys
 import threading
 import time
+import weakref
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy
@@ -113,6 +115,24 @@ def test_what_progress_raises_ends_the_call_and_comes_out(lump, kind):
                 call(progress=stop, threads=1)
             assert error.value is raised
         call()  # and leaves nothing behind
+
+
+def test_what_progress_raises_keeps_its_cause_and_nothing_else(ball):
+    positions, faces = ball[0].copy(), ball[1]
+    alive, cause = weakref.ref(positions), KeyError("why")
+
+    def stop(fraction):
+        raise Mine from cause
+
+    gc.disable()
+    try:
+        with pytest.raises(Mine) as error:
+            umbilic.curvatures(positions, faces, progress=stop)
+        assert error.value.__cause__ is cause and error.value.__context__ is None
+        del positions, error
+        assert alive() is None  # at once
+    finally:
+        gc.enable()
 
 
 def test_progress_may_call_the_library(ball):

@@ -7,6 +7,7 @@ from typing import Any, Callable
 
 from . import _native as native
 from ._arrays import IndexArray, address, unsigned
+from .errors import Error
 from .names import number
 
 Progress = Callable[[float], object]
@@ -42,10 +43,13 @@ class Run:
     def call(self, function: Any, *arguments: Any) -> None:
         try:
             native.call(function, *arguments)
-        finally:
-            # Also if the wish to cancel came too late to be heard.
-            if self.raised:
-                raise self.raised[0] from None
+        except Error:
+            if not self.raised:
+                raise
+        # Also if the wish to cancel came too late to be heard. Taken away, because its traceback leads back here: arrays
+        # of the call would stay until the garbage is collected.
+        if self.raised:
+            raise self.raised.pop()
 
 
 def _watch(progress: Progress | None, raised: list[BaseException]) -> Generator[int, float, None]:
