@@ -95,6 +95,8 @@ def wrong_arguments(positions, faces):
     yield TypeError, "faces have elements of type bool", lambda: vertex_normals(positions, faces > 3)
     yield ValueError, "faces have the shape \\(3840,\\)", lambda: vertex_normals(positions, faces.ravel())
     yield ValueError, "no corners", lambda: vertex_normals(positions, faces[:, :0])
+    yield TypeError, "Topology does not stand for faces", lambda: umbilic.segment_features(positions, mesh)
+    yield TypeError, "Cut does not stand for faces", lambda: vertex_normals(positions, umbilic.Cut(positions, faces))
     yield TypeError, "", lambda: vertex_normals(positions, None)
     yield TypeError, "", lambda: vertex_normals(positions, 3)
     yield (TypeError, ValueError), "", lambda: vertex_normals(positions, "faces")
