@@ -156,7 +156,10 @@ def test_statuses_have_errors_of_their_own():
 
     assert type(from_native("", 100, None)) is umbilic.OutOfMemory and issubclass(umbilic.OutOfMemory, MemoryError)
     assert type(from_native("", 900, None)) is Error and from_native("", 900, None).status is Status.INTERNAL
-    assert from_native("later", 14, None).status == 14
+    later = pickle.loads(pickle.dumps(from_native("later", 14, None)))
+    assert (later.status, later.status.name) == (14, "STATUS_14") and type(later) is InvalidArgument
+    with pytest.raises(ValueError, match="'OK' is not a valid Status"):
+        Status("OK")
     assert from_native("", 900, None).element is None
 
 

@@ -51,7 +51,7 @@ class Polygons(NamedTuple):
 
 
 #: An array `#F × n` of indices, `Polygons`, or a sequence of sequences of vertices.
-Faces = Union[NDArray[Any], Polygons, Sequence[Sequence[int]]]
+Faces = Union[NDArray[Any], Polygons, Sequence[Union[Sequence[int], NDArray[Any]]]]
 
 _KINDS = {"uint32": 0, "int32": 1, "uint64": 2, "int64": 2}  # UMB_INDEX_
 
