@@ -75,6 +75,18 @@ def test_pyvistas_memory_is_read_in_place(prism):
         assert view.data == place(mesh.points)
 
 
+def test_segments_are_safe_from_what_vtk_does_with_its_memory(prism):
+    for mesh in (pyvista.Cube().clean(), prism[0]):
+        parts = umbilic.pyvista.segment(mesh)
+        labels, areas = parts.labels.copy(), parts.areas(mesh.points)
+        mesh.cell_data["segment"][:] = 10**9  # pyvista's arrays can be written, whatever they were made of
+        assert numpy.array_equal(parts.labels, labels)
+        cells = mesh.GetPolys()
+        for _ in range(10**4):  # until they move
+            cells.InsertNextCell(3, [0, 1, 2])
+        assert numpy.array_equal(parts.areas(mesh.points), areas)
+
+
 def test_what_pyvista_has_beside_surfaces():
     with pytest.raises(TypeError, match="extract_surface"):
         umbilic.pyvista.vertex_normals(pyvista.ImageData(dimensions=(3, 3, 3)))
