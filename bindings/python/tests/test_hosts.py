@@ -133,6 +133,17 @@ def test_meshio_blocks():
     assert len(parts) == 6
     same = umbilic.vertex_normals(positions, quads, weight="angle").normal
     assert numpy.allclose(umbilic.meshio.vertex_normals(mesh, weight="angle").normal, same)
+    # Small types cannot count the corners, and no type holds all of two others.
+    positions, faces = umbilic.examples.sphere(3)
+    for kinds in (("u2", "u2"), ("i4", "i4"), ("u8", "i8")):
+        blocks = [numpy.tile(faces, (20, 1)).astype(kinds[0]), [], numpy.array([[0, 1, 2, 3]], kinds[1])]
+        mesh = meshio.Mesh(positions, list(zip(("triangle", "triangle", "quad"), blocks)))
+        assert umbilic.meshio.topology(mesh).face_count == 20 * len(faces) + 1
+        umbilic.meshio.segment(mesh)
+        assert [len(labels) for labels in mesh.cell_data["segment"]] == [20 * len(faces), 0, 1]
+    one = meshio.Mesh(positions, [("quad", []), ("triangle", faces)])
+    assert FaceArrays(umbilic.meshio.faces(one)).view().indices == place(one.cells[1].data)
+    assert umbilic.meshio.topology(meshio.Mesh(positions, [("quad", [])])).face_count == 0
     with pytest.raises(ValueError, match="'tetra' are no faces"):
         umbilic.meshio.faces(meshio.Mesh(positions, [("tetra", [[0, 1, 2, 4]])]))
     with pytest.raises(ValueError, match="no faces"):
