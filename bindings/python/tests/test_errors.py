@@ -97,6 +97,12 @@ def wrong_arguments(positions, faces):
     yield ValueError, "no corners", lambda: vertex_normals(positions, faces[:, :0])
     yield TypeError, "Topology does not stand for faces", lambda: umbilic.segment_features(positions, mesh)
     yield TypeError, "Cut does not stand for faces", lambda: vertex_normals(positions, umbilic.Cut(positions, faces))
+    yield TypeError, "topology is a ndarray, not a Topology", lambda: umbilic.affected_normals(faces, [0])
+    for wrong in ("meyer", {"method": "meyer"}):
+        says = f"{type(wrong).__name__}, not CurvatureOptions"
+        yield TypeError, says, lambda: umbilic.affected_curvatures(mesh, [0], wrong)
+        yield TypeError, says, lambda: umbilic.segment_regions(positions, faces, curvature=wrong)
+        yield TypeError, says, lambda: umbilic.segment_watershed(positions, faces, curvature=wrong)
     yield TypeError, "", lambda: vertex_normals(positions, None)
     yield TypeError, "", lambda: vertex_normals(positions, 3)
     yield (TypeError, ValueError), "", lambda: vertex_normals(positions, "faces")
