@@ -174,7 +174,9 @@ def corner_normals(
     normals are `corner.reshape(-1, 3, 3)`.
 
     faces
-        What is cut, or a `Cut`, for normals as positions move; its vertices are meant by `vertices`.
+        What is cut, or a `Cut`, for normals as positions move.
+    vertices
+        Those of the cut mesh to compute, for all outputs but "corner".
     angle, edges, groups
         Which edges are creases: see `Cut`. Not beside a `Cut`.
 
