@@ -98,9 +98,9 @@ class Mine(Exception):
     pass
 
 
-@pytest.mark.parametrize("kind", [Mine, KeyboardInterrupt, SystemExit, umbilic.Error])
+@pytest.mark.parametrize("kind", [Mine, KeyboardInterrupt, SystemExit, umbilic.Error, umbilic.IndexOutOfRange])
 def test_what_progress_raises_ends_the_call_and_comes_out(lump, kind):
-    raised = kind("stop", 7) if kind is umbilic.Error else kind("stop")
+    raised = kind("stop", umbilic.Status.INDEX_OUT_OF_RANGE, 0) if issubclass(kind, umbilic.Error) else kind("stop")
 
     for call in calls(*lump):
         seen = []

@@ -127,6 +127,8 @@ class FaceArrays:
             if place is None or error.status != Status.INDEX_OUT_OF_RANGE or not signed or place >= self.indices.size:
                 raise
             value = int(self.indices.flat[place])
+            if value >= 0:  # an error of a callback's, say
+                raise
             message = str(error).replace(str(value % 2**64), str(value))
             raise type(error)(message, error.status, place) from None
 
