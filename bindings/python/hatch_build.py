@@ -29,6 +29,9 @@ class LibraryHook(BuildHookInterface):
         if named:
             return Path(named).resolve(strict=True)
         repository = Path(self.root).resolve().parents[1]
-        subprocess.run(["cargo", "build", "--release", "--locked", "--lib"], cwd=repository, check=True)
+        try:
+            subprocess.run(["cargo", "build", "--release", "--locked", "--lib"], cwd=repository, check=True)
+        except FileNotFoundError:
+            raise RuntimeError("no cargo here to build the library; UMBILIC_LIBRARY names one that is built") from None
         target = Path(os.environ.get("CARGO_TARGET_DIR") or "target")
         return (repository / target / "release" / FILE).resolve(strict=True)

@@ -66,6 +66,8 @@ def test_other_layouts_are_copied(lump, dtype):
     assert not numpy.shares_memory(_arrays.vectors(contiguous, "positions"), contiguous)
     overlapping = numpy.lib.stride_tricks.sliding_window_view(numpy.arange(9.0), 3)
     assert not numpy.shares_memory(_arrays.vectors(overlapping, "positions"), overlapping)
+    empty = numpy.zeros(0, [("c", "u1"), ("xyz", dtype, 3)])["xyz"]
+    assert umbilic.vertex_normals(empty, []).normal.shape == (0, 3)
     same = numpy.broadcast_to(numpy.ones(3), (5, 3))
     assert _arrays.vectors(same, "positions").strides == (24, 8)
 

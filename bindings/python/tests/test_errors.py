@@ -95,6 +95,14 @@ def wrong_arguments(positions, faces):
     yield TypeError, "faces have elements of type bool", lambda: vertex_normals(positions, faces > 3)
     yield ValueError, "faces have the shape \\(3840,\\)", lambda: vertex_normals(positions, faces.ravel())
     yield ValueError, "no corners", lambda: vertex_normals(positions, faces[:, :0])
+    yield TypeError, "Topology does not stand for faces", lambda: umbilic.segment_features(positions, mesh)
+    yield TypeError, "Cut does not stand for faces", lambda: vertex_normals(positions, umbilic.Cut(positions, faces))
+    yield TypeError, "topology is a ndarray, not a Topology", lambda: umbilic.affected_normals(faces, [0])
+    for wrong in ("meyer", {"method": "meyer"}):
+        says = f"{type(wrong).__name__}, not CurvatureOptions"
+        yield TypeError, says, lambda: umbilic.affected_curvatures(mesh, [0], wrong)
+        yield TypeError, says, lambda: umbilic.segment_regions(positions, faces, curvature=wrong)
+        yield TypeError, says, lambda: umbilic.segment_watershed(positions, faces, curvature=wrong)
     yield TypeError, "", lambda: vertex_normals(positions, None)
     yield TypeError, "", lambda: vertex_normals(positions, 3)
     yield (TypeError, ValueError), "", lambda: vertex_normals(positions, "faces")
@@ -154,7 +162,10 @@ def test_statuses_have_errors_of_their_own():
 
     assert type(from_native("", 100, None)) is umbilic.OutOfMemory and issubclass(umbilic.OutOfMemory, MemoryError)
     assert type(from_native("", 900, None)) is Error and from_native("", 900, None).status is Status.INTERNAL
-    assert from_native("later", 14, None).status == 14
+    later = pickle.loads(pickle.dumps(from_native("later", 14, None)))
+    assert (later.status, later.status.name) == (14, "STATUS_14") and type(later) is InvalidArgument
+    with pytest.raises(ValueError, match="'OK' is not a valid Status"):
+        Status("OK")
     assert from_native("", 900, None).element is None
 
 

@@ -75,6 +75,18 @@ def test_pyvistas_memory_is_read_in_place(prism):
         assert view.data == place(mesh.points)
 
 
+def test_segments_are_safe_from_what_vtk_does_with_its_memory(prism):
+    for mesh in (pyvista.Cube().clean(), prism[0]):
+        parts = umbilic.pyvista.segment(mesh)
+        labels, areas = parts.labels.copy(), parts.areas(mesh.points)
+        mesh.cell_data["segment"][:] = 10**9  # pyvista's arrays can be written, whatever they were made of
+        assert numpy.array_equal(parts.labels, labels)
+        cells = mesh.GetPolys()
+        for _ in range(10**4):  # until they move
+            cells.InsertNextCell(3, [0, 1, 2])
+        assert numpy.array_equal(parts.areas(mesh.points), areas)
+
+
 def test_what_pyvista_has_beside_surfaces():
     with pytest.raises(TypeError, match="extract_surface"):
         umbilic.pyvista.vertex_normals(pyvista.ImageData(dimensions=(3, 3, 3)))
@@ -121,6 +133,17 @@ def test_meshio_blocks():
     assert len(parts) == 6
     same = umbilic.vertex_normals(positions, quads, weight="angle").normal
     assert numpy.allclose(umbilic.meshio.vertex_normals(mesh, weight="angle").normal, same)
+    # Small types cannot count the corners, and no type holds all of two others.
+    positions, faces = umbilic.examples.sphere(3)
+    for kinds in (("u2", "u2"), ("i4", "i4"), ("u8", "i8")):
+        blocks = [numpy.tile(faces, (20, 1)).astype(kinds[0]), [], numpy.array([[0, 1, 2, 3]], kinds[1])]
+        mesh = meshio.Mesh(positions, list(zip(("triangle", "triangle", "quad"), blocks)))
+        assert umbilic.meshio.topology(mesh).face_count == 20 * len(faces) + 1
+        umbilic.meshio.segment(mesh)
+        assert [len(labels) for labels in mesh.cell_data["segment"]] == [20 * len(faces), 0, 1]
+    one = meshio.Mesh(positions, [("quad", []), ("triangle", faces)])
+    assert FaceArrays(umbilic.meshio.faces(one)).view().indices == place(one.cells[1].data)
+    assert umbilic.meshio.topology(meshio.Mesh(positions, [("quad", [])])).face_count == 0
     with pytest.raises(ValueError, match="'tetra' are no faces"):
         umbilic.meshio.faces(meshio.Mesh(positions, [("tetra", [[0, 1, 2, 4]])]))
     with pytest.raises(ValueError, match="no faces"):

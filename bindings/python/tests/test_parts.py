@@ -38,7 +38,7 @@ def test_creases_may_be_marked():
     assert len(umbilic.segment_features(positions, faces, groups=[1, 1, 1, 1, 1, 2])) == 2
     ring = [[0, 1], [1, 3], [3, 2], [2, 0]]
     assert len(umbilic.segment_features(positions, faces, edges=ring)) == 2
-    for edges in ([0, 1], [[0, 1, 2]], [[[0, 1]]]):
+    for edges in ([0, 1], [[0, 1, 2]], [[[0, 1]]], [[]], numpy.empty((10**6, 0), int)):
         with pytest.raises(ValueError, match="not \\(n, 2\\)"):
             umbilic.segment_features(positions, faces, edges=edges)
     with pytest.raises(ValueError, match="2 groups, but 6 faces"):

@@ -23,6 +23,17 @@ def test_faces_in_every_form(torus):
     forms += [Polygons(flat, offsets), Polygons(flat.astype("u4"), offsets), Polygons(flat.astype("u8"), offsets)]
     forms += [Polygons(flat.tolist(), offsets.tolist())]
     forms += [Polygons.from_cells(numpy.insert(torus.quads, 0, 4, axis=1).ravel())]
+
+    class Frame:
+        """A table of data, which runs over its columns."""
+
+        def __array__(self, dtype=None, copy=None):
+            return torus.quads
+
+        def __iter__(self):
+            return iter(torus.quads.T)
+
+    forms.append(Frame())
     objects = numpy.empty(len(torus.quads), object)
     objects[:] = torus.quads.tolist()
     forms.append(objects)
@@ -111,3 +122,11 @@ def test_cells_that_are_none():
         with pytest.raises(kind):
             Polygons.from_cells(cells)
     assert len(Polygons.from_cells(numpy.empty(0, int)).offsets) == 1
+
+
+@pytest.mark.parametrize("dtype", ["i1", "u1", "i2", "u2", "i4", "u8"])
+def test_cells_of_small_types(dtype):
+    _, faces = umbilic.examples.sphere(1)
+    polygons = Polygons.from_cells(numpy.insert(faces, 0, 3, axis=1).ravel().astype(dtype))
+    assert list(polygons.offsets) == list(range(0, 241, 3)) and polygons.offsets.dtype.kind in "iu"
+    assert same(Topology(polygons, 42), Topology(faces, 42))

@@ -63,7 +63,8 @@ def in_place(array: NDArray[Any]) -> bool:
     if not (array.flags.aligned and array.dtype.isnative):
         return False
     if array.size == 0 or len(array) == 1:
-        return array.flags.c_contiguous
+        # Of no elements, numpy says that they are aligned wherever they are not.
+        return array.flags.c_contiguous and address(array) % array.dtype.alignment == 0
     size = array.itemsize
     row = size * array.shape[1] if array.ndim == 2 else size
     within = array.ndim == 1 or array.shape[1] == 1 or array.strides[1] == size

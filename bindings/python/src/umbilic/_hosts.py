@@ -34,7 +34,7 @@ def attribute(mesh: Any, name: str, package: str) -> Any:
         raise TypeError(f"{type(mesh).__name__} is no mesh of {package} with faces") from None
 
 
-def regular(indices: NDArray[Any], offsets: NDArray[Any]) -> Faces:
+def regular(indices: NDArray[Any], offsets: NDArray[Any]) -> NDArray[Any] | Polygons:
     """An array of faces if all have as many corners, without a copy."""
     count = len(offsets) - 1
     if count > 0 and len(indices) % count == 0 and (numpy.diff(offsets) == len(indices) // count).all():

@@ -82,6 +82,8 @@ def affected_curvatures(
 def _affected(
     function: Any, topology: Topology, moved: ArrayLike, status: ArrayLike | None, options: Any
 ) -> IndexArray:
+    if not isinstance(topology, Topology):
+        raise TypeError(f"topology is a {type(topology).__name__}, not a Topology")
     vertices, known = arrays.index_list(moved, "moved"), arrays.bytes_of(status, "status")
     view = native.sized(
         native.Moved,

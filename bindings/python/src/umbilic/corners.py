@@ -30,7 +30,7 @@ class CreaseArrays:
         self, angle: float | None, edges: ArrayLike | None, groups: ArrayLike | None, faces: FaceArrays
     ) -> None:
         self.edges = None if edges is None else arrays.indices(edges, "edges")
-        if self.edges is not None and self.edges.size and (self.edges.ndim != 2 or self.edges.shape[1] != 2):
+        if self.edges is not None and self.edges.shape != (0,) and (self.edges.ndim != 2 or self.edges.shape[1] != 2):
             raise ValueError(f"edges have the shape {self.edges.shape}, not (n, 2)")
         self.groups = None if groups is None else arrays.index_list(groups, "groups")
         if self.groups is not None and len(self.groups) != faces.count:
@@ -174,7 +174,9 @@ def corner_normals(
     normals are `corner.reshape(-1, 3, 3)`.
 
     faces
-        What is cut, or a `Cut`, for normals as positions move; its vertices are meant by `vertices`.
+        What is cut, or a `Cut`, for normals as positions move.
+    vertices
+        Those of the cut mesh to compute, for all outputs but "corner".
     angle, edges, groups
         Which edges are creases: see `Cut`. Not beside a `Cut`.
 

@@ -92,6 +92,8 @@ class Prepared:
     """The struct of such options, with what it points into: held while the library reads it."""
 
     def __init__(self, options: CurvatureOptions, run: Run | None = None) -> None:
+        if not isinstance(options, CurvatureOptions):
+            raise TypeError(f"options of curvatures are a {type(options).__name__}, not CurvatureOptions")
         self.normals = None if options.normals is None else arrays.vectors(options.normals, "normals")
         self.model = struct_of(options.model)
         self.struct = native.sized(

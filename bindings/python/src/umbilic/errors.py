@@ -26,11 +26,20 @@ class Status(IntEnum):
     CANCELLED = 101
     INTERNAL = 900
 
+    @classmethod
+    def _missing_(cls, value: object) -> Status | None:
+        """What later libraries may have."""
+        if not isinstance(value, int):
+            return None
+        later = int.__new__(cls, value)
+        later._name_, later._value_ = f"STATUS_{value}", value
+        return later
+
 
 class Error(Exception):
     """The library refused a call, or could not carry it out.
 
-    `status` is a number of `Status`; `element` the offending corner, face, vertex or value, as the message says, or
+    `status` is a `Status`; `element` the offending corner, face, vertex or value, as the message says, or
     None. What this package itself refuses (shapes, types, unknown names) is a plain TypeError or ValueError.
 
     >>> import umbilic
@@ -41,13 +50,13 @@ class Error(Exception):
     IndexOutOfRange INDEX_OUT_OF_RANGE 2
     """
 
-    status: int
+    status: Status
     element: int | None
 
     def __init__(self, message: str, status: int, element: int | None = None) -> None:
         # All of them, so that a pickle holds all of them.
         super().__init__(message, status, element)
-        self.status = Status(status) if status in Status.__members__.values() else status
+        self.status = Status(status)
         self.element = element
 
     def __str__(self) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native as native
 from ._arrays import address
+from ._owner import Owner
 from .errors import InvalidArgument, Status
 
 
@@ -44,12 +45,13 @@ class Polygons(NamedTuple):
             raise ValueError(f"cells end within the face that starts at {starts[-1]}")
         corners = numpy.ones(len(array), bool)
         corners[starts] = False
-        offsets = numpy.concatenate([numpy.asarray(starts, array.dtype), [place]]) - numpy.arange(len(starts) + 1)
-        return cls(array[corners], offsets.astype(array.dtype))
+        offsets = numpy.array([*starts, place]) - numpy.arange(len(starts) + 1)
+        # Of 4 bytes, a type counts all corners; smaller ones may not.
+        return cls(array[corners], offsets.astype(array.dtype) if array.itemsize >= 4 else offsets)
 
 
 #: An array `#F × n` of indices, `Polygons`, or a sequence of sequences of vertices.
-Faces = Union[NDArray[Any], Polygons, Sequence[Sequence[int]]]
+Faces = Union[NDArray[Any], Polygons, Sequence[Union[Sequence[int], NDArray[Any]]]]
 
 _KINDS = {"uint32": 0, "int32": 1, "uint64": 2, "int64": 2}  # UMB_INDEX_
 
@@ -66,7 +68,12 @@ class FaceArrays:
         self.arity = 0
         if isinstance(faces, Polygons):
             self.indices, self.offsets = _alike(_integers(faces.indices, 1), _integers(faces.offsets, 1))
-        elif isinstance(faces, numpy.ndarray) and faces.dtype != object:
+            return
+        if isinstance(faces, Owner):
+            raise TypeError(f"a {type(faces).__name__} does not stand for faces here")
+        if hasattr(faces, "__array__"):  # tables of data, too, some of which run over their columns
+            faces = numpy.asarray(faces)
+        if isinstance(faces, numpy.ndarray) and faces.dtype != object:
             self.indices = _integers(faces, 2)
             self.arity = faces.shape[1]
             if self.arity == 0:
@@ -120,6 +127,8 @@ class FaceArrays:
             if place is None or error.status != Status.INDEX_OUT_OF_RANGE or not signed or place >= self.indices.size:
                 raise
             value = int(self.indices.flat[place])
+            if value >= 0:  # an error of a callback's, say
+                raise
             message = str(error).replace(str(value % 2**64), str(value))
             raise type(error)(message, error.status, place) from None
 

@@ -37,12 +37,14 @@ def _blocks(mesh: Any) -> list[Any]:
 
 def faces(mesh: Any) -> Faces:
     """The mesh's faces, block after block: an array if all have as many corners."""
-    blocks = [numpy.asarray(block.data) for block in _blocks(mesh)]
+    blocks = [numpy.asarray(block.data) for block in _blocks(mesh) if len(block.data)]
+    if not blocks:
+        return numpy.empty((0, 3), numpy.int64)
     if len(blocks) == 1:
         return blocks[0]
     sizes = numpy.concatenate([numpy.full(len(block), block.shape[1]) for block in blocks])
-    indices = numpy.concatenate([block.reshape(-1) for block in blocks])
-    return regular(indices, numpy.concatenate([[0], numpy.cumsum(sizes)]).astype(indices.dtype))
+    indices = numpy.concatenate([block.reshape(-1) for block in blocks], dtype=numpy.int64, casting="same_kind")
+    return regular(indices, numpy.concatenate([[0], numpy.cumsum(sizes)]))
 
 
 def topology(mesh: Any) -> Topology:

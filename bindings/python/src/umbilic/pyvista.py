@@ -1,6 +1,7 @@
 """Surfaces of pyvista, `PolyData` of any polygons: results go to point data and cell data.
 
-Points, connectivity, offsets and results are not copied, and polygons stay polygons. pyvista is not imported.
+Points, connectivity, offsets and results are not copied, but for a segmentation's faces and labels: it keeps the faces,
+which VTK may move, and pyvista may write into labels. Polygons stay polygons. pyvista is not imported.
 """
 
 from __future__ import annotations
@@ -9,19 +10,20 @@ from importlib import import_module
 from typing import Any
 
 import numpy
+from numpy.typing import NDArray
 
 from . import curvature as _curvature
 from . import normals as _normals
 from ._hosts import By, attribute, chosen, regular, way
 from .curvature import Curvatures
-from .faces import Faces
+from .faces import Polygons
 from .names import NO_SEGMENT
 from .normals import VertexNormals
 from .segmentation import Segmentation
 from .topology import Topology
 
 
-def faces(mesh: Any) -> Faces:
+def faces(mesh: Any) -> NDArray[Any] | Polygons:
     """The mesh's polygons, in VTK's memory: an array if all have as many corners."""
     if not hasattr(mesh, "GetPolys"):
         raise TypeError(f"{type(mesh).__name__} is no PolyData: extract_surface() makes one")
@@ -75,11 +77,12 @@ def segment(mesh: Any, by: By = "features", **options: Any) -> Segmentation:
     >>> umbilic.pyvista.segment(pyvista.Cube().clean())
     Segmentation(6 segments of 6 faces)
     """
-    found = way(by)(attribute(mesh, "points", "pyvista"), faces(mesh), **options)
-    labels = found.labels
-    if len(labels) != mesh.n_cells:
-        # Faces are the last cells.
-        labels = numpy.full(mesh.n_cells, NO_SEGMENT, numpy.uint32)
-        labels[mesh.n_cells - found.face_count :] = found.labels
+    segmented = way(by)
+    polygons = faces(mesh)
+    kept = Polygons(*map(numpy.copy, polygons)) if isinstance(polygons, Polygons) else numpy.copy(polygons)
+    found = segmented(attribute(mesh, "points", "pyvista"), kept, **options)
+    # Faces are the last cells.
+    labels = numpy.full(mesh.n_cells, NO_SEGMENT, numpy.uint32)
+    labels[mesh.n_cells - found.face_count :] = found.labels
     mesh.cell_data["segment"] = labels
     return found

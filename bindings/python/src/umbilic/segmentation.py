@@ -22,7 +22,8 @@ from .names import Location, Simd
 class Segmentation(Owner):
     """A label for each face. Labels are numbers from 0, in the order of the smallest face of each segment.
 
-    It may be used by any number of threads at once, and is freed with the last reference, or by `close`.
+    It may be used by any number of threads at once, and is freed with the last reference, or by `close`. For `areas` and
+    `means` it keeps the faces that it was made of, in place if they were read there: leave them as they are.
     """
 
     _name = "segmentation"
