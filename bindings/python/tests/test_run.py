@@ -144,6 +144,8 @@ def test_progress_may_call_the_library(ball):
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("progress", [None, lambda fraction: None])
 def test_ctrl_c_ends_long_calls(progress):
+    # A shell has its jobs in the background ignore it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     positions, faces = umbilic.examples.sphere(7)
     mesh = umbilic.Topology(faces, len(positions))
     timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
