@@ -289,7 +289,7 @@ def recorded(command, library, **more):
     variables = environment(BUILT / "recorder/libumbilic.so", UMBILIC_REAL=str(library), UMBILIC_RECORD=str(record), **more)
     done = run(command, env=variables, capture_output=True)
     lines = record.read_text().splitlines() if record.exists() else []
-    return done, [re.fullmatch(r"(\w+) (\S+) threads (\d+) status (\d+) ms (\S+) (\S+)", line).groups() for line in lines]
+    return done, [re.fullmatch(r"(\w+) (\S+) threads (\d+) status (\d+) ns (\d+) (\d+)", line).groups() for line in lines]
 
 
 # ---- times ----
@@ -308,7 +308,7 @@ def times(library, language, curvature, mesh):
         sys.exit(done.stderr)
     rounds = [[float(number) for number in line.split()] for line in done.stdout.splitlines()]
     for place, (call, quantity) in enumerate(QUANTITIES.items()):
-        first, again = zip(*((float(first), float(again)) for name, *_, first, again in calls if name == call))
+        first, again = zip(*((int(first) / 1e6, int(again) / 1e6) for name, *_, first, again in calls if name == call))
         outside = min(whole[place] - a - b for whole, a, b in zip(rounds, first, again, strict=True))
         library_alone = min(*first, *again)
         adapter = outside + min(first) - library_alone
