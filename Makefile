@@ -126,7 +126,11 @@ test-c: $(LIBRARY) | packages
 test-cpp: $(LIBRARY) | packages
 	CXX="$(CXX)" tests/cpp/test.sh
 
-# The C and C++ examples, OpenMesh and CGAL among them, on real meshes; the benchmarks are compiled.
+EXAMPLES_WRITE := $(CMAKE_BUILD)/written
+# Of these each edge has two faces at most, and no face is without area.
+PARTS := $(addprefix $(MESHES)/,fandisk.off anchor_dense.off elephant.off polygon_mesh.off)
+
+# The C and C++ examples, OpenMesh and CGAL among them, on real meshes, and what they write is read; the benchmarks are compiled.
 test-examples: $(LIBRARY) $(MESHES) bench-programs | packages
 	cmake -S examples_c -B $(CMAKE_BUILD) -DCMAKE_BUILD_TYPE=Release \
 	  -DUMBILIC_INCLUDE_DIR=$(CURDIR)/include -DUMBILIC_LIBRARY=$(CURDIR)/$(LIBRARY)
@@ -134,11 +138,12 @@ test-examples: $(LIBRARY) $(MESHES) bench-programs | packages
 	$(CMAKE_BUILD)/normals
 	$(CMAKE_BUILD)/curvature
 	$(CMAKE_BUILD)/moving
-	$(CMAKE_BUILD)/openmesh_normals $$(tests/peers/list.sh $(MESHES))
+	for example in openmesh_normals openmesh_curvature openmesh_parts cgal_normals cgal_curvature cgal_parts; do \
+	  case $$example in *_parts) meshes="$(PARTS)" ;; *) meshes=$$(tests/peers/list.sh $(MESHES)) ;; esac; \
+	  rm -rf $(EXAMPLES_WRITE) && mkdir $(EXAMPLES_WRITE) && $(CMAKE_BUILD)/$$example -o $(EXAMPLES_WRITE) $$meshes || exit 1; \
+	  for written in $(EXAMPLES_WRITE)/*.ply; do target/release/umbilic info $$written > /dev/null || exit 1; done; \
+	done
 	$(CMAKE_BUILD)/openmesh_decimate
-	$(CMAKE_BUILD)/openmesh_curvature $$(tests/peers/list.sh $(MESHES))
-	$(CMAKE_BUILD)/cgal_normals $$(tests/peers/list.sh $(MESHES))
-	$(CMAKE_BUILD)/cgal_curvature $$(tests/peers/list.sh $(MESHES))
 
 # libigl and VCG, from their Python wheels, on real meshes.
 test-peers: $(LIBRARY) $(MESHES) $(VENV)/done
