@@ -253,7 +253,8 @@ DIRECTORIES := PREFIX BINDIR LIBDIR INCLUDEDIR DATADIR MANDIR PKGCONFIGDIR CMAKE
 is_directory = $(and $(filter 1,$(words $(1))),$(filter /%,$(1)))
 check_directories = $(foreach name,$(DIRECTORIES),$(if $(call is_directory,$($(name))),,$(error $(name)="$($(name))" is no absolute path without blanks)))
 
-# What is built is installed as it is, so that root needs no cargo.
+# What is built is installed as it is, so that root needs no cargo; but without the standard library's debug information, two thirds of the
+# archive.
 install: | target/release/umbilic $(PROGRAM_DATA)/done
 	$(check_directories)
 	@set -e; for entry in $(INSTALLED); do \
@@ -261,6 +262,7 @@ install: | target/release/umbilic $(PROGRAM_DATA)/done
 	done
 	$(call fill_in,$(pkgconfig_prefix)) "$(DESTDIR)$(PKGCONFIGDIR)/umbilic.pc"
 	$(call fill_in,$(call way,$(CMAKEDIR),$(PREFIX))) "$(DESTDIR)$(CMAKEDIR)/umbilicConfig.cmake" "$(DESTDIR)$(CMAKEDIR)/umbilicConfigVersion.cmake"
+	strip --strip-debug "$(DESTDIR)$(LIBDIR)/libumbilic.a"
 	for link in $(LIBRARY_LINKS); do ln -sf libumbilic.so.$(VERSION) "$(DESTDIR)$$link" || exit 1; done
 	$(if $(DESTDIR),,if [ "$$(id -u)" -eq 0 ]; then ldconfig; fi)
 

@@ -1451,8 +1451,8 @@ typedef struct umb_region_options {
 #define UMB_INDEX_U64 2
 
 /**
- * The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `sse2`,
- * `avx2` or `avx512`; read once); the default.
+ * The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `avx2` or
+ * `avx512`; read once); the default.
  */
 #define UMB_SIMD_BEST 0
 
@@ -1462,7 +1462,7 @@ typedef struct umb_region_options {
 #define UMB_SIMD_PORTABLE 1
 
 /**
- * At most SSE2.
+ * The same as [`UMB_SIMD_PORTABLE`], which uses SSE2 on every x86-64.
  */
 #define UMB_SIMD_SSE2 2
 
@@ -2565,7 +2565,7 @@ uint32_t umb_abi_version(void);
 
 /**
  * Name, version and the vectors that calls use by default, in one line for logs: the widest that the CPU has, or those that
- * the environment variable `UMBILIC_SIMD` (`portable`, `sse2`, `avx2`, `avx512`) names if they are narrower. Static.
+ * the environment variable `UMBILIC_SIMD` (`portable`, `avx2`, `avx512`) names if they are narrower. Static.
  *
  * @since 0.1.0
  */

@@ -15,9 +15,8 @@ struct Function {
 }
 
 /// The levels, and by what the names of their functions are known.
-const LEVELS: [(&str, &str); 4] = [
+const LEVELS: [(&str, &str); 3] = [
     ("portable", "<umbilic::simd::Portable as umbilic::simd::Width>::call"),
-    ("sse2", "<umbilic::simd::widths::Sse2 as umbilic::simd::Width>::call"),
     ("avx2", "umbilic::simd::widths::run_avx2"),
     ("avx512", "umbilic::simd::widths::run_avx512"),
 ];

@@ -1,6 +1,7 @@
 /* Times umbilic alone: see program.h for the arguments, and `SETS` for the sets of tasks. */
 #include "ours.h"
 #include "program.h"
+#include "scatter.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,8 @@ static const char *const LEVELS[] = {"best", "portable", "sse2", "avx2", "avx512
 /* Tasks, and the calls that they point to. */
 typedef struct list {
   ours *o;
+  const mesh *m;
+  float *normals; /* room for those of the loop over quadrilaterals */
   size_t count;
   task tasks[160];
   ours_call calls[160];
@@ -30,6 +33,19 @@ static void add(list *l, const char *name, umb_scalar scalar, uint32_t threads, 
                                 call};
 }
 
+static void run_quads(void *context) {
+  const list *l = context;
+  scatter_quads(l->m, l->normals);
+}
+
+/* The plain C loop over quadrilaterals, where there are no others. */
+static void add_quads(list *l) {
+  if (!all_quads(l->m)) return;
+  if (l->count == sizeof l->tasks / sizeof *l->tasks) abort();
+  l->normals = allocate(3 * l->m->vertex_count * sizeof *l->normals);
+  l->tasks[l->count++] = (task){"C", "scatter over quads", "f32", "as built", 1, 1, run_quads, l};
+}
+
 /* Where what is slow is worth its time. */
 static int is_small(list *l) {
   return umb_topology_vertex_count(ours_topology(l->o)) < 200000;
@@ -47,6 +63,7 @@ static void add_normals(list *l) {
   static const char *const names[] = {"N_CM from faces", "N_CM", "uniform", "angle", "area", "Max", "centroid-area",
                                       "centroid", "inverse-root-edges", "sine", "angle-edges", "angle, at corners",
                                       "angle, at corners by index", "N_CM, at corners", NULL};
+  add_quads(l);
   add(l, "topology", UMB_SCALAR_F32, 1, 0);
   add(l, "cut along creases", UMB_SCALAR_F32, 1, 0);
   add_all(l, names);
@@ -54,10 +71,12 @@ static void add_normals(list *l) {
 
 static void add_levels(list *l) {
   static const char *const names[] = {"N_CM", "uniform", "angle", "area", "Max", "least squares", NULL};
-  for (umb_simd simd = UMB_SIMD_PORTABLE; simd <= UMB_SIMD_AVX512; simd++)
+  /* Without SSE2, which is another name for what is portable. */
+  static const umb_simd levels[] = {UMB_SIMD_PORTABLE, UMB_SIMD_AVX2, UMB_SIMD_AVX512};
+  for (size_t i = 0; i < sizeof levels / sizeof *levels; i++)
     for (const char *const *name = names; *name; name++) {
-      add(l, *name, UMB_SCALAR_F32, 1, simd);
-      if (name == names || !name[1]) add(l, *name, UMB_SCALAR_F64, 1, simd);
+      add(l, *name, UMB_SCALAR_F32, 1, levels[i]);
+      if (name == names || !name[1]) add(l, *name, UMB_SCALAR_F64, 1, levels[i]);
     }
 }
 
@@ -76,8 +95,12 @@ static void add_threads(list *l) {
 
 /* Those that are worth their time on a large mesh. */
 static void add_curvatures(list *l) {
-  static const char *const names[] = {"least squares", "least squares, on given normals", "Rusinkiewicz, on given normals",
-                                      "corrected measure, on given normals", NULL};
+  static const char *const names[] = {"least squares",
+                                      "least squares, on given normals",
+                                      "Meyer, on given normals",
+                                      "Rusinkiewicz, on given normals",
+                                      "corrected measure, on given normals",
+                                      NULL};
   add_all(l, names);
 }
 
@@ -163,6 +186,7 @@ int main(int argc, char **argv) {
   program p = start_program("umbilic", argc, argv);
   static list l;
   l.o = ours_new(&p.m, !strcmp(p.b.memory, "fresh"));
+  l.m = &p.m;
   if (p.peak) {
     peak(&p, l.o);
   } else {
@@ -171,6 +195,7 @@ int main(int argc, char **argv) {
     if (!l.count) fprintf(stderr, "there are no tasks '%s'\n", p.tasks);
     time_tasks(&p.b, &p.m, l.tasks, l.count);
   }
+  free(l.normals);
   ours_free(l.o);
   free_mesh(&p.m);
   return 0;

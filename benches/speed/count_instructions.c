@@ -1,6 +1,6 @@
 /* Runs one of umbilic's variants some times on one thread, for valgrind to count what it takes.
  *
- *   count_instructions MESH NAME f32|f64 LEVEL TIMES     LEVEL: 1 portable, 2 SSE2, 3 AVX2 */
+ *   count_instructions MESH NAME f32|f64 LEVEL TIMES     LEVEL: 1 portable, 3 AVX2 */
 #include "ours.h"
 
 #include <stdio.h>

@@ -3,7 +3,8 @@
  *   generate_mesh sphere SUBDIVISIONS FILE       an icosphere with bumps: every vertex has valence 5 or 6
  *   generate_mesh shuffled SUBDIVISIONS FILE     the same, vertices and faces in an order drawn at random
  *   generate_mesh torus COLUMNS FILE             irregular triangles, COLUMNS x 2/5 COLUMNS cells: valence up to 8
- *   generate_mesh quads COLUMNS FILE             the same torus of quadrilaterals, one in eight cut into two triangles
+ *   generate_mesh quads COLUMNS FILE             the same torus of quadrilaterals alone: every vertex has valence 4
+ *   generate_mesh quad-dominant COLUMNS FILE     the same, one in eight cut into two triangles
  *
  * The file has the numbers of vertices, polygons and corners (64 bits each), the positions (double), the corners, and
  * unless all polygons are triangles, where each starts and the last ends (32 bits each). */
@@ -158,14 +159,15 @@ static void write_array(FILE *file, const void *array, size_t count, size_t size
 int main(int argc, char **argv) {
   int size = argc == 4 ? atoi(argv[2]) : 0;
   if (size < 1) {
-    fprintf(stderr, "usage: %s sphere|shuffled|torus|quads SIZE FILE\n", argv[0]);
+    fprintf(stderr, "usage: %s sphere|shuffled|torus|quads|quad-dominant SIZE FILE\n", argv[0]);
     return 2;
   }
   mesh m;
   if (!strcmp(argv[1], "sphere")) m = bumpy_sphere(size);
   else if (!strcmp(argv[1], "shuffled")) m = shuffled(bumpy_sphere(size));
   else if (!strcmp(argv[1], "torus")) m = torus((size_t)size, 0);
-  else if (!strcmp(argv[1], "quads")) m = torus((size_t)size, 7.0 / 8);
+  else if (!strcmp(argv[1], "quads")) m = torus((size_t)size, 1);
+  else if (!strcmp(argv[1], "quad-dominant")) m = torus((size_t)size, 7.0 / 8);
   else {
     fprintf(stderr, "there is no mesh '%s'\n", argv[1]);
     return 2;

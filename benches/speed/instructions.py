@@ -5,8 +5,9 @@
     make bench-instructions UPDATE=1    writes that file anew
 
 valgrind's callgrind counts two runs, of one and of three calls; half of the difference is a call without what comes before
-it. One thread, a sphere of 20,480 triangles. valgrind knows no AVX-512. Counts are those of one version of the compiler:
-where another one builds the library, write the file anew first.
+it. One thread, a sphere of 20,480 triangles and a torus of 10,240 quadrilaterals, each of which counts as two triangles.
+valgrind knows no AVX-512. Counts are those of one version of the compiler: where another one builds the library, write the
+file anew first.
 """
 
 import argparse
@@ -19,33 +20,42 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "target" / "bench" / "build"
-MESH = ROOT / "target" / "bench" / "meshes" / "counted.mesh"
+MESHES = ROOT / "target" / "bench" / "meshes"
+# Kinds and sizes of generate_mesh.c: 20,480 triangles, or 10,240 quadrilaterals.
+SIZES = {"sphere": 5, "quads": 160}
 FILE = Path(__file__).with_name("instructions.txt")
 ROOM = 1.03
-LEVELS = {"portable": 1, "sse2": 2, "avx2": 3}
+LEVELS = {"portable": 1, "avx2": 3}  # of umb_simd
 SINGLE = ("N_CM", "uniform", "angle", "area", "Max", "least squares", "Rusinkiewicz, on given normals") + (
     "corrected measure, on given normals",
 )
 DOUBLE = ("N_CM", "area", "least squares", "jets 2, 2 rings", "jets 3, 2 rings", "jets 4, 3 rings") + (
     "adaptive jets, 4 rings",
 )
-Kernel = tuple[str, str, str]  # name, scalar, level
+QUADS = ("area", "angle", "N_CM", "least squares, on given normals", "Meyer, on given normals") + (
+    "Rusinkiewicz, on given normals",
+    "corrected measure, on given normals",
+)
+Kernel = tuple[str, str, str, str]  # mesh, name, scalar, level
 
 
 def kernels() -> list[Kernel]:
-    found = [("topology", "f32", "best"), ("N_CM from faces", "f32", "best")]
-    for scalar, names in (("f32", SINGLE), ("f64", DOUBLE)):
-        found += [(name, scalar, level) for name in names for level in LEVELS]
-    return found
+    found = [("sphere", name, "f32", "best") for name in ("topology", "N_CM from faces")]
+    for mesh, scalar, names in (("sphere", "f32", SINGLE), ("sphere", "f64", DOUBLE), ("quads", "f32", QUADS)):
+        found += [(mesh, name, scalar, level) for name in names for level in LEVELS]
+    return [*found, ("quads", "topology", "f32", "best")]
+
+
+def file(mesh: str) -> Path:
+    return MESHES / f"counted-{mesh}.mesh"
 
 
 def instructions(kernel: Kernel, calls: int) -> tuple[int, int]:
     """And the number of triangles."""
-    name, scalar, level = kernel
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", BUILD / "count_instructions", MESH]
-    done = subprocess.run(
-        [*command, name, scalar, str(LEVELS.get(level, 0)), str(calls)], capture_output=True, text=True
-    )
+    mesh, name, scalar, level = kernel
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", BUILD / "count_instructions"]
+    task = [file(mesh), name, scalar, str(LEVELS.get(level, 0)), str(calls)]
+    done = subprocess.run([*command, *task], capture_output=True, text=True)
     count = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not count:
         sys.exit(f"{kernel} could not be counted:\n{done.stderr}")
@@ -62,7 +72,7 @@ def read() -> dict[Kernel, float]:
     if not FILE.exists():
         return {}
     lines = [line.split("\t") for line in FILE.read_text().splitlines() if not line.startswith("#")]
-    return {(name, scalar, level): float(value) for name, scalar, level, value in lines}
+    return {(mesh, name, scalar, level): float(value) for mesh, name, scalar, level, value in lines}
 
 
 def write(counts: dict[Kernel, float]):
@@ -74,8 +84,9 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--update", action="store_true")
     update = parser.parse_args().update
-    MESH.parent.mkdir(parents=True, exist_ok=True)
-    subprocess.run([BUILD / "generate_mesh", "sphere", "5", MESH], check=True)
+    MESHES.mkdir(parents=True, exist_ok=True)
+    for mesh, size in SIZES.items():
+        subprocess.run([BUILD / "generate_mesh", mesh, str(size), file(mesh)], check=True)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = dict(zip(kernels(), pool.map(count, kernels())))
     known, grown = read(), []
@@ -84,7 +95,7 @@ def main():
         change = "new" if before is None else f"{100 * (value / before - 1):+.1f} %"
         if before is not None and value > before * ROOM:
             grown.append(kernel)
-        print(f"{', '.join(kernel):48}{value:10.1f}{change:>10}{'   grew' if kernel in grown else ''}")
+        print(f"{', '.join(kernel):56}{value:10.1f}{change:>10}{'   grew' if kernel in grown else ''}")
     if update:
         write(counts)
         print(f"Written: {FILE.relative_to(ROOT)}")

@@ -59,6 +59,13 @@ mesh read_mesh(const char *path) {
   return m;
 }
 
+int all_quads(const mesh *m) {
+  if (!m->offsets) return 0;
+  for (size_t p = 0; p < m->polygon_count; p++)
+    if (m->offsets[p + 1] - m->offsets[p] != 4) return 0;
+  return 1;
+}
+
 void free_mesh(mesh *m) {
   if (m->triangles != m->corners) free(m->triangles);
   free(m->corners);

@@ -22,6 +22,9 @@ typedef struct mesh {
 void *allocate(size_t bytes);
 mesh read_mesh(const char *path);
 
+/* Whether each polygon has four corners. */
+int all_quads(const mesh *m);
+
 void free_mesh(mesh *m);
 
 #ifdef __cplusplus

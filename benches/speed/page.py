@@ -39,12 +39,21 @@ def page(samples: Samples) -> str:
         "",
         "As ratios to the scatter kernel, on the sphere of 1.3 M triangles in the order in which it is made, one thread, "
         "unless a row says something else. CGAL's: how many times as long CGAL takes for the same vertices, on the sphere of "
-        "82 k triangles.",
+        "82 k triangles. Quads: a torus of 655 360 quadrilaterals, or of 64 000 where 128 k triangles' worth are said; the "
+        "kernel takes two triangles for each.",
+        "",
+        "A corner by the sphere's: the time divided by the number of corners of all faces, as a ratio to the same of the "
+        "sphere of 1.3 M triangles, which has as many vertices (four corners of quadrilaterals around a vertex, six of "
+        "triangles). By the torus's, a corner or a vertex: the irregular torus, which is the same grid of 64 000 vertices with "
+        "each cell cut along a diagonal drawn at random. These meshes are measured one after the other, not in turns. "
+        "OpenMesh's by area: its time for `calc_vertex_normal_fast`, its default and the fastest of its normals, by that of "
+        "umbilic's area weights.",
         "",
         *tables.aims(samples),
         "## Normals",
         "",
-        "On a topology that is there, but for \"from faces\", which is one call without. Nanoseconds a triangle, and ×.",
+        "On a topology that is there, but for \"from faces\", which is one call without. Nanoseconds a triangle, and ×. "
+        "\"Scatter over quads\" is the plain C loop over quadrilaterals as they are, one cross product of diagonals for each.",
         "",
         *tables.normals(samples, "f32"),
         *tables.normals(samples, "f64"),
@@ -76,8 +85,8 @@ def page(samples: Samples) -> str:
         "",
         "Nanoseconds a triangle of the other library, and how many times as long it takes as umbilic's method beside it, in "
         "the same process. Their structures are built once, like umbilic's topology, and are there for the rest. One thread "
-        "means that the process is kept on one CPU; OpenMesh and CGAL have no more. They are given the quadrilaterals of the "
-        "quad-dominant mesh as they are; the others know triangles best, and they and umbilic are given two for each.",
+        "means that the process is kept on one CPU; OpenMesh and CGAL have no more. They are given quadrilaterals "
+        "as they are; the others know triangles best, and they and umbilic are given two for each.",
         "",
         *tables.peers(samples),
         *tables.agreements(samples),

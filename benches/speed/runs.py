@@ -28,7 +28,9 @@ def meshes(quick: bool) -> list[MeshFile]:
         MeshFile("shuffled", "shuffled", large, "sphere, shuffled" if quick else "1.3 M, shuffled"),
         MeshFile("small", "sphere", large - 2, "small sphere" if quick else "82 k"),
         MeshFile("torus", "torus", grid, "irregular torus"),
-        MeshFile("quads", "quads", grid, "quad-dominant"),
+        MeshFile("dominant", "quad-dominant", grid, "quad-dominant"),
+        MeshFile("quads", "quads", 320 if quick else 1280, "quads" if quick else "quads 1.3 M"),
+        MeshFile("quads-small", "quads", grid, "small quads" if quick else "quads 128 k"),
     ]
 
 
@@ -49,14 +51,16 @@ def umbilic_runs(names: list[str]) -> list[Run]:
     found += [Run("umbilic", name, "memory", "fresh") for name in names]
     found += [Run("umbilic", name, "threads") for name in names]
     found += [Run("umbilic", "natural", "levels")]
-    found += [Run("umbilic", name, "curvatures") for name in ("natural", "shuffled")]
+    found += [Run("umbilic", name, "curvatures") for name in ("natural", "shuffled", "quads")]
     found += [Run("umbilic", "natural", "adaptive")]
-    found += [Run("umbilic", name, "methods") for name in ("small", "torus", "quads")]
+    found += [Run("umbilic", name, "methods") for name in ("small", "torus", "dominant", "quads-small")]
     return found
 
 
 def peer_runs(names: list[str]) -> list[Run]:
     found = [Run("openmesh", name, "all") for name in names]
+    # To the others, pure quadrilaterals are nothing that the quad-dominant mesh is not.
+    names = [name for name in names if not name.startswith("quads")]
     found += [Run("cgal", name, "mesh") for name in names]
     found += [Run("cgal", name, "jets") for name in ("small", "torus")]
     for wheel in WHEELS:

@@ -33,6 +33,18 @@ class Sample:
         """To the scatter kernel, of the same round."""
         return spread([mine / reference for mine, reference in zip(self.ns, self.scatter)])
 
+    def per_triangle(self, other: "Sample") -> Spread:
+        """How many times as long a triangle takes as one of another mesh. The two ran in processes of their own, so their
+        rounds have nothing in common."""
+        mine, theirs = self.time(), other.time()
+        return Spread(mine.low / theirs.high, mine.median / theirs.median, mine.high / theirs.low)
+
+    def per_corner(self, other: "Sample", corners: int, others: int) -> Spread:
+        """The same of corners, where polygons here have `corners` of them and those of the other mesh `others`."""
+        a_triangle = lambda polygon: polygon / (polygon - 2)
+        scale, ratio = a_triangle(others) / a_triangle(corners), self.per_triangle(other)
+        return Spread(ratio.low * scale, ratio.median * scale, ratio.high * scale)
+
     def times(self, other: "Sample") -> Spread:
         """How many times as long as the other, of the same program, in the same round."""
         return spread([mine / theirs for mine, theirs in zip(self.ns, other.ns)])
@@ -57,8 +69,9 @@ class Samples:
 
     def levels(self) -> list[str]:
         """Those of the option `simd` that the CPU has."""
-        known = ["portable", "sse2", "avx2", "avx512"]
-        return known[: known.index(self.about["vectors"]) + 1]
+        known = ["portable", "avx2", "avx512"]
+        best = self.about["vectors"]
+        return known[: known.index(best) + 1] if best in known else known[:1]
 
     def all(self, **wanted) -> list[Sample]:
         return [task for task in self.tasks if wanted.items() <= task.line.items()]

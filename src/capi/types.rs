@@ -28,12 +28,12 @@ pub const UMB_INDEX_U64: umb_index = 2;
 
 /// The widest vectors a call may use: a `UMB_SIMD_` constant. It never changes a bit of a result.
 pub type umb_simd = u32;
-/// The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `sse2`,
-/// `avx2` or `avx512`; read once); the default.
+/// The widest that the CPU has, or what the environment variable `UMBILIC_SIMD` names if that is narrower (`portable`, `avx2` or
+/// `avx512`; read once); the default.
 pub const UMB_SIMD_BEST: umb_simd = 0;
 /// None: plain code that runs on any CPU.
 pub const UMB_SIMD_PORTABLE: umb_simd = 1;
-/// At most SSE2.
+/// The same as [`UMB_SIMD_PORTABLE`], which uses SSE2 on every x86-64.
 pub const UMB_SIMD_SSE2: umb_simd = 2;
 /// At most AVX2.
 pub const UMB_SIMD_AVX2: umb_simd = 3;

@@ -30,7 +30,7 @@ macro_rules! info {
 }
 
 /// Name, version and the vectors that calls use by default, in one line for logs: the widest that the CPU has, or those that
-/// the environment variable `UMBILIC_SIMD` (`portable`, `sse2`, `avx2`, `avx512`) names if they are narrower. Static.
+/// the environment variable `UMBILIC_SIMD` (`portable`, `avx2`, `avx512`) names if they are narrower. Static.
 ///
 /// @since 0.1.0
 #[unsafe(no_mangle)]
@@ -38,7 +38,6 @@ pub extern "C" fn umb_build_info() -> *const c_char {
     match Level::best().name() {
         "avx512" => info!("avx512"),
         "avx2" => info!("avx2"),
-        "sse2" => info!("sse2"),
         _ => info!("portable"),
     }
 }

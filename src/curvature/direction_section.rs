@@ -20,7 +20,7 @@ use super::{Section, SectionOutputs, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Mask, Real, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::sweep::{FaceNeeds, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::Topology;
 use crate::view::Points;
 
@@ -217,6 +217,7 @@ impl DirectionSections<'_> {
 }
 
 impl Quantity for DirectionSections<'_> {
+    const FACES: FaceNeeds = FaceNeeds::Unused;
     const SINGLE: bool = false;
 
     #[inline(always)]

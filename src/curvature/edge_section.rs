@@ -12,7 +12,7 @@ use super::{Section, section_status};
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
+use crate::sweep::{FaceNeeds, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep};
 use crate::topology::Topology;
 use crate::view::{Output, Points, ScalarOutput, StatusOutput};
 
@@ -89,6 +89,7 @@ struct EdgeSections<'a> {
 }
 
 impl Quantity for EdgeSections<'_> {
+    const FACES: FaceNeeds = FaceNeeds::Unused;
     const SINGLE: bool = false;
 
     #[inline(always)]

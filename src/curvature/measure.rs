@@ -266,7 +266,7 @@ pub(crate) fn over_region<E: MeasureEstimator>(
 
 /// Adds up cells over a region.
 enum Gather {
-    Rings { rings: usize, neighbourhood: Box<Neighbourhood> },
+    Rings { rings: usize, neighbourhood: Box<Neighbourhood<'static>> },
     Ball(Ball),
 }
 

@@ -340,6 +340,65 @@ impl CurvatureOutputs<'_> {
     }
 }
 
+impl CurvatureOutputs<'_> {
+    /// Whether [`CurvatureOutputs::write_lanes`] has all that is asked for.
+    #[inline(always)]
+    pub(crate) fn in_lanes(&self) -> bool {
+        let others = [
+            &self.area,
+            &self.integrated_mean,
+            &self.integrated_gaussian,
+            &self.shape_index,
+            &self.curvedness,
+            &self.residual,
+            &self.condition,
+            &self.degrees_of_freedom,
+        ];
+        let mut none = self.mean_normal.is_none() && self.status.is_none();
+        for other in others {
+            none &= other.is_none();
+        }
+        for scalar in [&self.k1, &self.k2, &self.mean, &self.gaussian] {
+            none &= !scalar.as_ref().is_some_and(Output::is_double);
+        }
+        for vector in [&self.direction1, &self.direction2, &self.normal] {
+            none &= !vector.as_ref().is_some_and(Output::is_double);
+        }
+        none
+    }
+
+    /// Writes a block whose outputs all are in single precision, as its lanes are.
+    #[inline(always)]
+    pub(crate) fn write_lanes<V: Vector>(&self, vertices: &[u32], lanes: u32, found: &Local<V>, scale: V) {
+        let most = V::constant(f32::MAX as f64);
+        if let Some(output) = &self.k1 {
+            output.write_lanes(vertices, lanes, &[(found.k1 * scale).min(most).max(-most)]);
+        }
+        if let Some(output) = &self.k2 {
+            output.write_lanes(vertices, lanes, &[(found.k2 * scale).min(most).max(-most)]);
+        }
+        if let Some(output) = &self.mean {
+            output.write_lanes(vertices, lanes, &[(found.mean * scale).min(most).max(-most)]);
+        }
+        if let Some(output) = &self.gaussian {
+            output.write_lanes(vertices, lanes, &[(found.gaussian * scale * scale).min(most).max(-most)]);
+        }
+        let (n, d) = (found.normal, found.direction1);
+        if let Some(output) = &self.direction1 {
+            let d = d * (V::constant(1.5) - d.squared() * V::constant(0.5));
+            output.write_lanes(vertices, lanes, &[d.x, d.y, d.z]);
+        }
+        if let Some(output) = &self.direction2 {
+            let e = n.cross(d);
+            let e = e * (V::constant(1.5) - e.squared() * V::constant(0.5));
+            output.write_lanes(vertices, lanes, &[e.x, e.y, e.z]);
+        }
+        if let Some(output) = &self.normal {
+            output.write_lanes(vertices, lanes, &[n.x, n.y, n.z]);
+        }
+    }
+}
+
 impl<V: Vector> Local<V> {
     /// The lanes of the rows that are taken as numbers, the others zero.
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::outputs::{Block, CurvatureOutputs, Local};
 use super::principal::Frame;
 use crate::simd::{MAX_LANES, Mask, Real, Vector, Vector3};
-use crate::sweep::{NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, lengthened};
+use crate::sweep::{FaceNeeds, NormalRows, Quantity, Ring, RingFaces, Scratch, VertexFans, lengthened};
 use crate::topology::status;
 
 /// A curvature estimator over one-rings. What it adds up goes over all fans of a vertex.
@@ -12,6 +12,12 @@ pub(crate) trait RingEstimator: Sync {
     const NEIGHBOUR_NORMALS: bool = false;
     /// As [`Quantity::FLAT_ANGLES`].
     const FLAT_ANGLES: bool = false;
+    /// As [`Quantity::FACES`].
+    const FACES: FaceNeeds = FaceNeeds::Frames;
+    /// As [`Quantity::UNITS`].
+    const UNITS: bool = true;
+    /// As [`Quantity::DOUBTS_FOUR`].
+    const DOUBTS_FOUR: bool = false;
     /// Whether a vertex without normal has no result.
     const NORMAL: bool = true;
     /// Whether it is ever computed in single precision. Then [`RingEstimator::finish`] calls results unusable that rounding may
@@ -103,6 +109,10 @@ impl<E: RingEstimator> Curvatures<'_, E> {
 
     #[inline(always)]
     fn write<V: Vector>(&self, vertices: &[u32], lanes: u32, found: &Local<V>, scale: V) {
+        if V::Scalar::SINGLE && self.outputs.in_lanes() {
+            self.outputs.write_lanes(vertices, lanes, found, scale);
+            return;
+        }
         let (mut scales, scale) = ([0.0; MAX_LANES], scale.to_lanes());
         for lane in 0..V::LANES {
             scales[lane] = scale[lane].into();
@@ -124,6 +134,9 @@ impl<E: RingEstimator> Quantity for Curvatures<'_, E> {
     const SINGLE: bool = E::SINGLE;
     const CENTROIDS: bool = E::NEIGHBOUR_NORMALS;
     const FLAT_ANGLES: bool = E::FLAT_ANGLES;
+    const FACES: FaceNeeds = E::FACES;
+    const UNITS: bool = E::UNITS;
+    const DOUBTS_FOUR: bool = E::DOUBTS_FOUR;
 
     fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         match self.normals {

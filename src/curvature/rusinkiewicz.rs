@@ -97,6 +97,7 @@ fn turned<V: Vector>(vector: Vector3<V>, cosine: V, axis: Vector3<V>, inverse: V
 }
 
 impl RingEstimator for Rusinkiewicz {
+    const UNITS: bool = false;
     const NEIGHBOUR_NORMALS: bool = true;
     type Sums<V: Vector> = Sums<V>;
 

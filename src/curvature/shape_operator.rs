@@ -21,7 +21,7 @@ use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
 use super::section::{self, EdgeCurvature};
 use crate::simd::{Mask, Real, Vector};
-use crate::sweep::{Ring, RingFaces, Scratch};
+use crate::sweep::{FaceNeeds, Ring, RingFaces, Scratch};
 
 /// A part of `(p, q)` that the edges tell apart by less than this mean square is not determined: what they say of it is the
 /// error of the normal, magnified more than thirtyfold.
@@ -65,6 +65,10 @@ fn determined<V: Vector>(eigenvalue: V, value: V) -> V {
 }
 
 impl RingEstimator for LeastSquares {
+    const FACES: FaceNeeds = FaceNeeds::Unused;
+    const UNITS: bool = false;
+    // Two pairs of edges at right angles tell the sections between them badly.
+    const DOUBTS_FOUR: bool = true;
     type Sums<V: Vector> = Sums<V>;
 
     #[inline(always)]

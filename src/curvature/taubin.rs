@@ -19,7 +19,7 @@ use super::ring::RingEstimator;
 use super::section::{self, EdgeCurvature};
 use super::shape_operator::double_angle;
 use crate::simd::Vector;
-use crate::sweep::{Ring, RingFaces, Scratch};
+use crate::sweep::{FaceNeeds, Ring, RingFaces, Scratch};
 
 /// Taubin 1995.
 pub(crate) struct Taubin {
@@ -36,6 +36,7 @@ pub(crate) struct Sums<V> {
 }
 
 impl RingEstimator for Taubin {
+    const FACES: FaceNeeds = FaceNeeds::Planes;
     type Sums<V: Vector> = Sums<V>;
 
     #[inline(always)]

@@ -8,12 +8,13 @@ use super::principal::{Frame, Operator};
 use super::ring::RingEstimator;
 use crate::fit::TiltedSums;
 use crate::simd::Vector;
-use crate::sweep::{Ring, RingFaces, Scratch};
+use crate::sweep::{FaceNeeds, Ring, RingFaces, Scratch};
 
 /// Tilted sections.
 pub(crate) struct TiltedSections;
 
 impl RingEstimator for TiltedSections {
+    const FACES: FaceNeeds = FaceNeeds::Unused;
     const SINGLE: bool = false;
     type Sums<V: Vector> = TiltedSums<V>;
 

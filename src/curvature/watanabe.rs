@@ -17,7 +17,7 @@ use super::principal::Frame;
 use super::ring::RingEstimator;
 use super::section::{self, EdgeCurvature};
 use crate::simd::Vector;
-use crate::sweep::{Ring, RingFaces, Scratch};
+use crate::sweep::{FaceNeeds, Ring, RingFaces, Scratch};
 
 /// Watanabe & Belyaev 2001.
 pub(crate) struct Watanabe {
@@ -33,6 +33,7 @@ pub(crate) struct Sums<V> {
 }
 
 impl RingEstimator for Watanabe {
+    const FACES: FaceNeeds = FaceNeeds::Planes;
     type Sums<V: Vector> = Sums<V>;
 
     #[inline(always)]

@@ -85,10 +85,15 @@ pub(super) fn solve<V: Vector<Scalar = f64>>(
     let slope_prior = V::select(few, V::constant(FEW_SLOPE_PRIOR), V::constant(SLOPE_PRIOR));
     let mut prior = [V::zero(); TERMS];
     let mut right = right;
+    // One division for each degree.
+    let mut inverse_sizes = [V::zero(); 3];
+    for (inverse, &size) in inverse_sizes.iter_mut().zip(&setting.sizes_squared) {
+        *inverse = V::one() / size;
+    }
     for term in 1..TERMS {
         prior[term] = match DEGREES[term] {
             1 => slope_prior,
-            degree => V::one() / (setting.sizes_squared[degree - 2] * V::constant(BINOMIALS[term])),
+            degree => inverse_sizes[degree - 2] * V::constant(1.0 / BINOMIALS[term]),
         };
         matrix[term][term] = matrix[term][term] + prior[term];
     }

@@ -128,8 +128,13 @@ impl PatchQuantity for Collector<'_> {
         Some(&self.around.edge_lengths)
     }
     #[inline(always)]
-    fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        self.around.choose::<V>(vertex, found, chosen)
+    fn choose<V: Vector<Scalar = f64>, Z: Vector<Scalar = f32>>(
+        &self,
+        vertex: u32,
+        found: &Neighbourhood,
+        chosen: &mut [u32],
+    ) -> Counts {
+        self.around.choose::<V, Z>(vertex, found, chosen)
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@
 use crate::simd::{MAX_LANES, Mask, Vector, Vector3};
 use crate::sweep::Counts;
 use crate::topology::{Neighbourhood, Topology};
-use crate::view::StridedPoints;
+use crate::view::{StridedPoints, gather_rows};
 use glam::DVec3;
 
 /// The cosine of the largest angle between the one-ring normals of a vertex and of a neighbour that counts.
@@ -21,6 +21,8 @@ const LEAST_POINTS: usize = 6;
 pub(crate) struct Surroundings {
     /// Unit one-ring normals, zero where there is none.
     pub normals: Vec<[f64; 3]>,
+    /// As `normals`, and a zero; none where only some vertices are computed.
+    pub singles: Vec<[f32; 4]>,
     /// The mean length of each vertex's edges, those of its faces at the vertex.
     pub edge_lengths: Vec<f64>,
     /// [`Surroundings::SHARP`], [`Surroundings::SPIKE`] and [`Surroundings::BESIDE_SPIKE`].
@@ -45,12 +47,44 @@ impl Surroundings {
 
     /// Fills `chosen` with the neighbours on the same side of any crease.
     #[inline(always)]
-    pub fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        let [x, y, z] = self.normals[vertex as usize].map(V::splat);
-        let own = Vector3 { x, y, z };
+    pub fn choose<V: Vector<Scalar = f64>, Z: Vector<Scalar = f32>>(
+        &self,
+        vertex: u32,
+        found: &Neighbourhood,
+        chosen: &mut [u32],
+    ) -> Counts {
+        let [x, y, z] = self.normals[vertex as usize];
+        let own = Vector3 { x: V::splat(x), y: V::splat(y), z: V::splat(z) };
         let rings = self.may_be_creased(vertex as usize) as usize;
+        // All others are looked at one by one, in double precision.
+        let ordinary = !self.has_spikes && !self.singles.is_empty();
+        if ordinary && self.all_on_this_side::<Z>(vertex, found.vertices()) {
+            chosen[..found.vertices().len()].copy_from_slice(found.vertices());
+            return found.counts_within();
+        }
         let counts = self.choose_beyond(own, found, rings, Self::SPIKE, chosen);
         if counts[3] as usize + 1 < LEAST_POINTS { self.choose_beyond(own, found, 1, 0, chosen) } else { counts }
+    }
+
+    /// Whether there is no doubt that all normals are within 60° of the vertex's.
+    #[inline(always)]
+    fn all_on_this_side<Z: Vector<Scalar = f32>>(&self, vertex: u32, found: &[u32]) -> bool {
+        let [x, y, z, _] = self.singles[vertex as usize];
+        let (x, y, z) = (Z::splat(x), Z::splat(y), Z::splat(z));
+        let mut least = Z::one();
+        for some in found.chunks(Z::LANES) {
+            let mut row = [vertex; MAX_LANES];
+            if some.len() == Z::LANES {
+                row[..Z::LANES].copy_from_slice(&some[..Z::LANES]);
+            } else {
+                for (place, &neighbour) in row.iter_mut().zip(some) {
+                    *place = neighbour;
+                }
+            }
+            let [a, b, c, _] = gather_rows::<Z>(&self.singles, &row);
+            least = (x * a + y * b + z * c).min(least);
+        }
+        least.lt(Z::constant(SAME_SIDE + 1e-5)).bits() == 0
     }
 
     /// As [`Surroundings::choose`], with all of the first `rings` rings, 0 or 1, but for vertices with one of the `unwanted`

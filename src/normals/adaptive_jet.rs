@@ -183,8 +183,13 @@ impl<S: Sink> PatchQuantity for Jets<'_, S> {
         self.fit.noise
     }
     #[inline(always)]
-    fn choose<V: Vector<Scalar = f64>>(&self, vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
-        self.around.choose::<V>(vertex, found, chosen)
+    fn choose<V: Vector<Scalar = f64>, Z: Vector<Scalar = f32>>(
+        &self,
+        vertex: u32,
+        found: &Neighbourhood,
+        chosen: &mut [u32],
+    ) -> Counts {
+        self.around.choose::<V, Z>(vertex, found, chosen)
     }
 
     #[inline(always)]
@@ -270,7 +275,7 @@ impl Sink for Normals<'_> {
         let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
         for (lane, &vertex) in vertices.iter().enumerate() {
             if lanes & 1 << lane != 0 {
-                self.write_none(vertex as usize, axes.map(|axis| axis[lane]), more);
+                self.write_none(vertex as usize, [axes[0][lane], axes[1][lane], axes[2][lane]], more);
             }
         }
         lanes

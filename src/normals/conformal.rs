@@ -49,7 +49,7 @@ impl Estimator for Conformal {
             let corner = ring.corner(index);
             let (unit, angle) = corner.unit_and_angle();
             normals[index + 1] = corner.direction() * unit;
-            spreads[index + 1] = corner.spread(unit);
+            spreads[index + 1] = corner.cone_spread(unit);
             tangents[index + 1] = angle;
             cone = cone + angle;
         }

@@ -75,7 +75,12 @@ impl PatchQuantity for JetNormals<'_> {
         let mut doubtful = 0;
         for (lane, &vertex) in vertices.iter().enumerate() {
             if trusted & 1 << lane != 0 {
-                self.write(vertex as usize, axes.map(|axis| axis[lane]), widened & 1 << lane != 0, 0);
+                self.write(
+                    vertex as usize,
+                    [axes[0][lane], axes[1][lane], axes[2][lane]],
+                    widened & 1 << lane != 0,
+                    0,
+                );
             } else {
                 doubtful |= 1 << lane;
             }

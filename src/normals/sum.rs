@@ -11,6 +11,8 @@ pub(crate) trait Estimator: Sync {
     const MEAN: bool = false;
     /// Whether polygons need their centroids.
     const CENTROIDS: bool = false;
+    /// As [`Quantity::EDGES`](crate::sweep::Quantity::EDGES).
+    const EDGES: bool = true;
 
     /// The fan's weighted sum of normals, in the ring's units.
     fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, scratch: &mut Scratch<'_, V>) -> Sum<V>;

@@ -40,6 +40,8 @@ pub(super) fn surroundings(
     let count = topology.vertex_count();
     let mut found = Surroundings {
         normals: zeroed(count)?,
+        // For a list, what is not on it is not touched.
+        singles: if run.vertices.is_some() { Vec::new() } else { zeroed(count)? },
         edge_lengths: zeroed(count)?,
         marks: zeroed(count)?,
         has_spikes: false,
@@ -50,6 +52,9 @@ pub(super) fn surroundings(
         marks: found.marks.as_mut_slice().into(),
     };
     sweep(topology, points, run, true, &quantity)?;
+    for (single, normal) in found.singles.iter_mut().zip(&found.normals) {
+        *single = [normal[0] as f32, normal[1] as f32, normal[2] as f32, 0.0];
+    }
     let mut spread = |vertex: usize| {
         if found.marks[vertex] & Surroundings::SPIKE != 0 {
             found.has_spikes = true;
@@ -144,7 +149,8 @@ impl Quantity for Look<'_> {
         let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
         for (lane, &vertex) in vertices.iter().enumerate() {
             if trusted & 1 << lane != 0 {
-                self.normal.write(vertex as usize, axes.map(|axis| axis[lane].into()));
+                self.normal
+                    .write(vertex as usize, [axes[0][lane].into(), axes[1][lane].into(), axes[2][lane].into()]);
                 self.edge_length.write(vertex as usize, [length[lane].into()]);
                 self.marks.write(vertex as usize, mark(marks, lane));
             }

@@ -8,7 +8,7 @@ use super::vertex::{NormalOutputs, with_fallback};
 use super::weights::Max;
 use crate::fit::{Axes, TiltedSums};
 use crate::simd::{Mask, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans};
+use crate::sweep::{FaceNeeds, Quantity, Ring, RingFaces, Scratch, VertexFans};
 use crate::topology::status;
 
 /// Normals of tilted sections, and where they go.
@@ -19,6 +19,7 @@ pub(super) struct TiltedNormals<'a> {
 }
 
 impl Quantity for TiltedNormals<'_> {
+    const FACES: FaceNeeds = FaceNeeds::Planes;
     const SINGLE: bool = false;
 
     #[inline(always)]
@@ -40,7 +41,7 @@ impl Quantity for TiltedNormals<'_> {
         let axes = [normal.x.to_lanes(), normal.y.to_lanes(), normal.z.to_lanes()];
         for (lane, &vertex) in vertices.iter().enumerate() {
             if trusted & 1 << lane != 0 {
-                let normal = axes.map(|axis| axis[lane].into());
+                let normal = [axes[0][lane].into(), axes[1][lane].into(), axes[2][lane].into()];
                 self.outputs.write(vertex as usize, normal, normal, self.flags[vertex as usize]);
             }
         }

@@ -15,7 +15,7 @@ use super::weights::{
 use crate::error::Error;
 use crate::parallel::Run;
 use crate::simd::{Mask, Vector, Vector3};
-use crate::sweep::{Quantity, Ring, RingFaces, Scratch, VertexFans, sweep, sweep_with_normals};
+use crate::sweep::{Face, FaceNeeds, Quantity, Ring, RingFaces, Scratch, VertexFans, sweep, sweep_with_normals};
 use crate::topology::{Topology, status};
 use crate::view::{Faces, Output, Points, StatusOutput, zeroed};
 
@@ -183,6 +183,9 @@ struct Normals<'a, E> {
 
 impl<E: Estimator> Quantity for Normals<'_, E> {
     const CENTROIDS: bool = E::CENTROIDS;
+    const FACES: FaceNeeds = if E::CENTROIDS { FaceNeeds::Frames } else { FaceNeeds::Planes };
+    const EDGES: bool = E::EDGES;
+    const UNITS: bool = false;
 
     #[inline(always)]
     fn block<V: Vector, F: RingFaces<V>>(
@@ -201,11 +204,11 @@ impl<E: Estimator> Quantity for Normals<'_, E> {
             output.write_lanes(vertices, trusted, &[normal.x, normal.y, normal.z]);
         }
         if let Some(output) = &self.outputs.sum {
-            let axes = [sum.vector.x, sum.vector.y, sum.vector.z].map(V::to_lanes);
+            let axes = [sum.vector.x.to_lanes(), sum.vector.y.to_lanes(), sum.vector.z.to_lanes()];
             let (total, scale) = (sum.total.to_lanes(), scale.to_lanes());
             for (lane, &vertex) in vertices.iter().enumerate() {
                 if trusted & 1 << lane != 0 {
-                    let vector = axes.map(|axis| axis[lane].into());
+                    let vector = [axes[0][lane].into(), axes[1][lane].into(), axes[2][lane].into()];
                     output.write(vertex as usize, unscale::<E>(vector, total[lane].into(), scale[lane].into()));
                 }
             }
@@ -287,6 +290,7 @@ fn any_face<F: RingFaces<f64>>(fans: &VertexFans<'_, F>, scale: f64) -> Option<F
     let mut corners = fans.rings().flat_map(|ring| (0..ring.corner_count()).map(move |index| ring.corner(index)));
     corners.find_map(|corner| {
         let (vector, spread) = term::<Area, f64, F::Face>(&corner);
+        let vector = vector * F::Face::AREA_UNIT;
         let normal = unit(&Sum { vector, spread, total: 0.0 })?;
         Some((normal, unscale_by(Area::DIMENSION, [vector.x, vector.y, vector.z], scale), 0))
     })

@@ -35,6 +35,16 @@ pub(crate) trait CornerWeight: Sync {
     const DIMENSION: i32;
     /// Whether it asks for the centroid.
     const NEEDS_CENTROID: bool = false;
+    /// Whether it looks at the edges of a polygon.
+    const LOOKS_AT_EDGES: bool = true;
+    /// Whether factors are in units of [`Face::AREA_UNIT`], which is put in after the sum.
+    const AREA: bool = false;
+
+    /// How much of the term is in doubt, as [`Corner::spread`].
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.spread(factor)
+    }
 
     /// The weight, as a factor of the corner's [`Corner::direction`].
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V;
@@ -43,6 +53,7 @@ pub(crate) trait CornerWeight: Sync {
 impl<W: CornerWeight> Estimator for W {
     const POWER: i32 = W::DIMENSION;
     const CENTROIDS: bool = W::NEEDS_CENTROID;
+    const EDGES: bool = W::LOOKS_AT_EDGES;
 
     #[inline(always)]
     fn sum<V: Vector, F: RingFaces<V>>(ring: &Ring<'_, V, F>, _scratch: &mut Scratch<'_, V>) -> Sum<V> {
@@ -52,6 +63,11 @@ impl<W: CornerWeight> Estimator for W {
             sum.vector = sum.vector + term;
             sum.spread = sum.spread + spread;
         }
+        if W::AREA {
+            let unit = V::constant(F::Face::AREA_UNIT);
+            sum.vector = sum.vector * unit;
+            sum.spread = sum.spread * (unit * unit);
+        }
         sum
     }
 }
@@ -60,13 +76,14 @@ impl<W: CornerWeight> Estimator for W {
 #[inline(always)]
 pub(crate) fn term<W: CornerWeight, V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> (Vector3<V>, V) {
     let factor = W::factor(corner);
-    (corner.direction() * factor, corner.spread(factor))
+    (corner.direction() * factor, W::spread(corner, factor))
 }
 
 /// The weight 1.
 pub(crate) struct Uniform;
 impl CornerWeight for Uniform {
     const DIMENSION: i32 = 0;
+    const LOOKS_AT_EDGES: bool = false;
     #[inline(always)]
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V {
         corner.unit()
@@ -82,15 +99,25 @@ impl CornerWeight for Angle {
         let (unit, angle) = corner.unit_and_angle();
         unit * angle
     }
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.angle_spread(factor)
+    }
 }
 
 /// The area.
 pub(crate) struct Area;
 impl CornerWeight for Area {
     const DIMENSION: i32 = 2;
+    const LOOKS_AT_EDGES: bool = false;
+    const AREA: bool = true;
     #[inline(always)]
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V {
-        corner.area()
+        corner.area_factor()
+    }
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.plain_spread(factor)
     }
 }
 
@@ -124,6 +151,10 @@ impl CornerWeight for Max {
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V {
         corner.sine_product() * corner.product.reciprocal_or_zero()
     }
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.sine_spread(factor, corner.product.reciprocal_or_zero())
+    }
 }
 
 /// One by the root of the product of the edge lengths.
@@ -144,6 +175,10 @@ impl CornerWeight for Sine {
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V {
         corner.sine_product() * corner.product.sqrt().reciprocal_or_zero()
     }
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.sine_spread(factor, corner.product.sqrt().reciprocal_or_zero())
+    }
 }
 
 /// The angle times the product of the edge lengths.
@@ -154,5 +189,9 @@ impl CornerWeight for AngleEdges {
     fn factor<V: Vector, F: Face<V>>(corner: &Corner<V, F>) -> V {
         let (unit, angle) = corner.unit_and_angle();
         unit * angle * corner.product.sqrt()
+    }
+    #[inline(always)]
+    fn spread<V: Vector, F: Face<V>>(corner: &Corner<V, F>, factor: V) -> V {
+        corner.angle_spread(factor)
     }
 }

@@ -13,6 +13,8 @@ mod portable;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
+#[cfg(target_arch = "x86_64")]
+mod x86_memory;
 
 use std::sync::OnceLock;
 #[cfg(unix)]
@@ -32,8 +34,6 @@ pub struct Level(Kind);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Portable,
-    #[cfg(target_arch = "x86_64")]
-    Sse2,
     #[cfg(target_arch = "x86_64")]
     Avx2,
     #[cfg(target_arch = "x86_64")]
@@ -79,7 +79,7 @@ impl Level {
             Level(match (avx2, avx512) {
                 (true, true) => Kind::Avx512,
                 (true, false) => Kind::Avx2,
-                _ => Kind::Sse2,
+                _ => Kind::Portable,
             })
         }
         #[cfg(not(target_arch = "x86_64"))]
@@ -90,8 +90,6 @@ impl Level {
     pub fn all() -> Vec<Level> {
         [
             Kind::Portable,
-            #[cfg(target_arch = "x86_64")]
-            Kind::Sse2,
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2,
             #[cfg(target_arch = "x86_64")]
@@ -111,25 +109,22 @@ impl Level {
     /// What a name stands for, whether the CPU has it or not.
     fn named(name: &str) -> Option<Level> {
         Some(Level(match name {
-            "portable" => Kind::Portable,
-            #[cfg(target_arch = "x86_64")]
-            "sse2" => Kind::Sse2,
+            // What is portable uses SSE2 where that is part of every CPU: by hand it was no faster.
+            "portable" | "sse2" => Kind::Portable,
             #[cfg(target_arch = "x86_64")]
             "avx2" => Kind::Avx2,
             #[cfg(target_arch = "x86_64")]
             "avx512" => Kind::Avx512,
             #[cfg(not(target_arch = "x86_64"))]
-            "sse2" | "avx2" | "avx512" => Kind::Portable,
+            "avx2" | "avx512" => Kind::Portable,
             _ => return None,
         }))
     }
 
-    /// `"portable"`, `"sse2"`, `"avx2"` or `"avx512"`.
+    /// `"portable"`, `"avx2"` or `"avx512"`.
     pub fn name(self) -> &'static str {
         match self.0 {
             Kind::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
-            Kind::Sse2 => "sse2",
             #[cfg(target_arch = "x86_64")]
             Kind::Avx2 => "avx2",
             #[cfg(target_arch = "x86_64")]
@@ -183,8 +178,8 @@ pub(crate) trait Task {
 
 struct Portable;
 impl Width for Portable {
-    type Single = portable::Lanes<f32, 4>;
-    type Double = portable::Lanes<f64, 4>;
+    type Single = portable::Lanes<f32>;
+    type Double = portable::Lanes<f64>;
 
     #[inline(never)]
     fn call<T: Task>(task: T) {
@@ -196,16 +191,6 @@ impl Width for Portable {
 mod widths {
     use super::{Task, Width, x86};
 
-    pub struct Sse2;
-    impl Width for Sse2 {
-        type Single = x86::F32x4;
-        type Double = x86::F64x2;
-
-        #[inline(never)]
-        fn call<T: Task>(task: T) {
-            task.run::<Sse2>();
-        }
-    }
     pub struct Avx2;
     impl Width for Avx2 {
         type Single = x86::F32x8;
@@ -245,8 +230,6 @@ mod widths {
 pub(crate) fn dispatch<T: Task>(level: Level, task: T) {
     match level.0 {
         Kind::Portable => task.run::<Portable>(),
-        #[cfg(target_arch = "x86_64")]
-        Kind::Sse2 => task.run::<widths::Sse2>(),
         // SAFETY: a `Level` of this kind exists only where the CPU was seen to have these features.
         #[cfg(target_arch = "x86_64")]
         Kind::Avx2 => unsafe { widths::run_avx2(task) },

@@ -5,6 +5,7 @@
 //! which is why one source gives the same bits at every width.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// The scalar of a lane: `f32` or `f64`.
 pub(crate) trait Real:
@@ -38,13 +39,18 @@ pub(crate) trait Real:
     fn root(self) -> Self;
     /// The absolute value.
     fn magnitude(self) -> Self;
+    /// Stores it as a relaxed atomic does.
+    ///
+    /// # Safety
+    /// `place` is a writable scalar of this type, aligned as one.
+    unsafe fn store_relaxed(self, place: *mut Self);
     /// `2^−floor(log₂ x)` for `x ≥ 0`, kept inside the normal range, so that `x` times it lies in `[1, 4)`, or
     /// below where `x` is zero or subnormal.
     fn inverse_power_of_two(self) -> Self;
 }
 
 macro_rules! real {
-    ($scalar:ty, $bits:ty, $exponent_mask:expr, $mirror:expr, $largest:expr, $tiny:expr, $single:expr) => {
+    ($scalar:ty, $bits:ty, $atomic:ty, $exponent_mask:expr, $mirror:expr, $largest:expr, $tiny:expr, $single:expr) => {
         impl Real for $scalar {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -65,6 +71,21 @@ macro_rules! real {
                 self.abs()
             }
             #[inline(always)]
+            unsafe fn store_relaxed(self, place: *mut Self) {
+                // SAFETY: the caller's word; where the scalar is less aligned than the atomic of its size, its halves are stored.
+                unsafe {
+                    if align_of::<$scalar>() == align_of::<$atomic>() {
+                        <$atomic>::from_ptr(place.cast()).store(self.to_bits(), Relaxed);
+                    } else {
+                        let halves = self.to_ne_bytes();
+                        for (index, half) in halves.as_chunks::<4>().0.iter().enumerate() {
+                            AtomicU32::from_ptr(place.cast::<u32>().add(index))
+                                .store(u32::from_ne_bytes(*half), Relaxed);
+                        }
+                    }
+                }
+            }
+            #[inline(always)]
             fn inverse_power_of_two(self) -> Self {
                 let x = if self < $largest { self } else { $largest };
                 <$scalar>::from_bits($mirror - (x.to_bits() & $exponent_mask))
@@ -73,8 +94,17 @@ macro_rules! real {
     };
 }
 // 2^126 and 2^1022: the largest powers of two whose reciprocal is a normal number.
-real!(f32, u32, 0x7f80_0000, 254 << 23, f32::from_bits(253 << 23), f32::from_bits(27 << 23), true);
-real!(f64, u64, 0x7ff0_0000_0000_0000, 2046 << 52, f64::from_bits(2045 << 52), f64::from_bits(123 << 52), false);
+real!(f32, u32, AtomicU32, 0x7f80_0000, 254 << 23, f32::from_bits(253 << 23), f32::from_bits(27 << 23), true);
+real!(
+    f64,
+    u64,
+    AtomicU64,
+    0x7ff0_0000_0000_0000,
+    2046 << 52,
+    f64::from_bits(2045 << 52),
+    f64::from_bits(123 << 52),
+    false
+);
 
 /// A comparison's answer, lane by lane.
 pub(crate) trait Mask: Copy {
@@ -129,12 +159,56 @@ pub(crate) trait Vector:
     /// [`Real::inverse_power_of_two`] of each lane.
     fn unit_scale(self) -> Self;
 
+    /// The first three scalars of each of the elements `indices[0..LANES]`, an element a lane, and in the fourth row the
+    /// scalar that follows if `WIDE`, else whatever.
+    ///
+    /// # Safety
+    /// Each of those indices must be that of an element of `stride` bytes from `base` on, aligned for the scalar, and if
+    /// `WIDE` a fourth scalar must follow its first three in the same array.
+    unsafe fn gather4<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> [Self; 4];
+
+    /// Stores lane `l` of the first three `rows`, of all four if `WIDE`, as scalars that follow each other in element
+    /// `indices[l]`, for each lane. Unless `WIDE`, stores are relaxed atomics, so that threads that store the same values to
+    /// the same element are no data race.
+    ///
+    /// # Safety
+    /// As [`Vector::gather4`], for elements that may be written, and, if `WIDE`, that nobody else reads or writes meanwhile.
+    unsafe fn scatter4<const WIDE: bool>(rows: [Self; 4], base: *mut u8, stride: usize, indices: &[u32; MAX_LANES]);
+
     /// The points `indices[0..LANES]` of an array of points of this scalar type.
     ///
     /// # Safety
-    /// Each of those indices must be that of a point, and `base` and `stride` aligned for the scalar. If `WIDE`, the
-    /// load may take a fourth scalar after the three coordinates: the points must be packed, and none of them the last.
-    unsafe fn gather<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self>;
+    /// As [`Vector::gather4`]: where `WIDE`, points are packed and none of these is the last.
+    #[inline(always)]
+    unsafe fn gather<const WIDE: bool>(base: *const u8, stride: usize, indices: &[u32; MAX_LANES]) -> Vector3<Self> {
+        // SAFETY: handed on.
+        let [x, y, z, _] = unsafe { Self::gather4::<WIDE>(base, stride, indices) };
+        Vector3 { x, y, z }
+    }
+
+    /// [`Mask::bits`] where all lanes hold.
+    const ALL: u32 = ((1u64 << Self::LANES) - 1) as u32;
+
+    /// As [`Vector::gather`], of points in single precision.
+    ///
+    /// # Safety
+    /// As [`Vector::gather`].
+    #[inline(always)]
+    unsafe fn gather_single<const WIDE: bool>(
+        base: *const u8,
+        stride: usize,
+        indices: &[u32; MAX_LANES],
+    ) -> Vector3<Self> {
+        let mut lanes = [[Self::Scalar::ZERO; MAX_LANES]; 3];
+        for lane in 0..Self::LANES {
+            // SAFETY: the caller vouches for the index, the base and the stride.
+            let point = unsafe { base.add(indices[lane] as usize * stride).cast::<[f32; 3]>().read() };
+            for axis in 0..3 {
+                lanes[axis][lane] = Self::Scalar::from_f64(point[axis].into());
+            }
+        }
+        Vector3::from_lanes(&lanes)
+    }
 
     /// All lanes 0.
     #[inline(always)]
@@ -222,14 +296,36 @@ macro_rules! scalar_vector {
                 self.inverse_power_of_two()
             }
             #[inline(always)]
-            unsafe fn gather<const WIDE: bool>(
+            unsafe fn gather4<const WIDE: bool>(
                 base: *const u8,
                 stride: usize,
                 indices: &[u32; MAX_LANES],
-            ) -> Vector3<Self> {
-                // SAFETY: the caller vouches for the index, the base and the stride.
-                let [x, y, z] = unsafe { base.add(indices[0] as usize * stride).cast::<[$scalar; 3]>().read() };
-                Vector3 { x, y, z }
+            ) -> [Self; 4] {
+                // SAFETY: the caller vouches for the element, and for its fourth scalar if `WIDE`.
+                unsafe {
+                    let element = base.add(indices[0] as usize * stride).cast::<$scalar>();
+                    let [x, y, z] = element.cast::<[$scalar; 3]>().read();
+                    [x, y, z, if WIDE { element.add(3).read() } else { 0.0 }]
+                }
+            }
+            #[inline(always)]
+            unsafe fn scatter4<const WIDE: bool>(
+                [x, y, z, w]: [Self; 4],
+                base: *mut u8,
+                stride: usize,
+                indices: &[u32; MAX_LANES],
+            ) {
+                // SAFETY: as above.
+                unsafe {
+                    let element = base.add(indices[0] as usize * stride).cast::<$scalar>();
+                    if WIDE {
+                        element.cast::<[$scalar; 4]>().write([x, y, z, w]);
+                    } else {
+                        x.store_relaxed(element);
+                        y.store_relaxed(element.add(1));
+                        z.store_relaxed(element.add(2));
+                    }
+                }
             }
         }
     };

@@ -1,9 +1,10 @@
-//! The x86-64 back-ends: SSE2, AVX2 and AVX-512 rows of `f32` and `f64`.
+//! The x86-64 back-ends: AVX2 and AVX-512 rows of `f32` and `f64`.
 //!
 //! The types may be used only inside a function that carries the features of their level; [`super::dispatch`]
 //! sees to that. `sub`, `div` … are the plain IEEE instructions: nothing here approximates or fuses.
 
 use super::vector::{MAX_LANES, Mask, Vector, Vector3};
+use super::x86_memory::*;
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -18,7 +19,7 @@ macro_rules! row {
      $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $min:ident, $max:ident,
      $load:ident, $store:ident, |$abs_of:ident| $abs:expr, |$negated:ident| $negate:expr,
      |$less_a:ident, $less_b:ident| $less:expr, |$where:ident, $yes:ident, $no:ident| $select:expr,
-     |$mirrored:ident| $mirror:expr, $gather:ident) => {
+     |$mirrored:ident| $mirror:expr, $gather:ident, $gather_single:ident, $scatter:ident) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $name($register);
@@ -126,14 +127,34 @@ macro_rules! row {
                 $name(unsafe { $mirror })
             }
             #[inline(always)]
-            unsafe fn gather<const WIDE: bool>(
+            unsafe fn gather4<const WIDE: bool>(
+                base: *const u8,
+                stride: usize,
+                indices: &[u32; MAX_LANES],
+            ) -> [Self; 4] {
+                // SAFETY: the caller vouches for the indices; for the features see the macro.
+                let [a, b, c, d] = unsafe { $gather::<WIDE>(base, stride, indices) };
+                [$name(a), $name(b), $name(c), $name(d)]
+            }
+            #[inline(always)]
+            unsafe fn gather_single<const WIDE: bool>(
                 base: *const u8,
                 stride: usize,
                 indices: &[u32; MAX_LANES],
             ) -> Vector3<Self> {
-                // SAFETY: the caller vouches for the indices; for the features see the macro.
-                let (x, y, z) = unsafe { $gather::<WIDE>(base, stride, indices) };
+                // SAFETY: as above.
+                let [x, y, z, _] = unsafe { $gather_single::<WIDE>(base, stride, indices) };
                 Vector3 { x: $name(x), y: $name(y), z: $name(z) }
+            }
+            #[inline(always)]
+            unsafe fn scatter4<const WIDE: bool>(
+                rows: [Self; 4],
+                base: *mut u8,
+                stride: usize,
+                indices: &[u32; MAX_LANES],
+            ) {
+                // SAFETY: the caller vouches for the indices; for the features see the macro.
+                unsafe { $scatter::<WIDE>([rows[0].0, rows[1].0, rows[2].0, rows[3].0], base, stride, indices) }
             }
         }
     };
@@ -173,8 +194,6 @@ macro_rules! mask {
     };
 }
 
-mask!(M32x4, __m128, |a, b| _mm_and_ps(a, b), |a, b| _mm_or_ps(a, b), |mask| _mm_movemask_ps(mask));
-mask!(M64x2, __m128d, |a, b| _mm_and_pd(a, b), |a, b| _mm_or_pd(a, b), |mask| _mm_movemask_pd(mask));
 mask!(M32x8, __m256, |a, b| _mm256_and_ps(a, b), |a, b| _mm256_or_ps(a, b), |mask| _mm256_movemask_ps(mask));
 mask!(M64x4, __m256d, |a, b| _mm256_and_pd(a, b), |a, b| _mm256_or_pd(a, b), |mask| _mm256_movemask_pd(mask));
 mask!(M32x16, __mmask16, |a, b| a & b, |a, b| a | b, |mask| mask);
@@ -189,58 +208,6 @@ const EXPONENT_64: i64 = 0x7ff0_0000_0000_0000;
 const MIRROR_32: i32 = 254 << 23;
 const MIRROR_64: i64 = 2046 << 52;
 
-row!(
-    F32x4,
-    __m128,
-    f32,
-    4,
-    M32x4,
-    _mm_set1_ps,
-    _mm_add_ps,
-    _mm_sub_ps,
-    _mm_mul_ps,
-    _mm_div_ps,
-    _mm_sqrt_ps,
-    _mm_min_ps,
-    _mm_max_ps,
-    _mm_loadu_ps,
-    _mm_storeu_ps,
-    |a| _mm_andnot_ps(_mm_set1_ps(-0.0), a),
-    |a| _mm_xor_ps(_mm_set1_ps(-0.0), a),
-    |a, b| _mm_cmplt_ps(a, b),
-    |m, yes, no| _mm_or_ps(_mm_and_ps(m, yes), _mm_andnot_ps(m, no)),
-    |a| {
-        let bits = _mm_castps_si128(_mm_min_ps(a, _mm_set1_ps(LARGEST_32)));
-        _mm_castsi128_ps(_mm_sub_epi32(_mm_set1_epi32(MIRROR_32), _mm_and_si128(bits, _mm_set1_epi32(EXPONENT_32))))
-    },
-    gather_f32x4
-);
-row!(
-    F64x2,
-    __m128d,
-    f64,
-    2,
-    M64x2,
-    _mm_set1_pd,
-    _mm_add_pd,
-    _mm_sub_pd,
-    _mm_mul_pd,
-    _mm_div_pd,
-    _mm_sqrt_pd,
-    _mm_min_pd,
-    _mm_max_pd,
-    _mm_loadu_pd,
-    _mm_storeu_pd,
-    |a| _mm_andnot_pd(_mm_set1_pd(-0.0), a),
-    |a| _mm_xor_pd(_mm_set1_pd(-0.0), a),
-    |a, b| _mm_cmplt_pd(a, b),
-    |m, yes, no| _mm_or_pd(_mm_and_pd(m, yes), _mm_andnot_pd(m, no)),
-    |a| {
-        let bits = _mm_castpd_si128(_mm_min_pd(a, _mm_set1_pd(LARGEST_64)));
-        _mm_castsi128_pd(_mm_sub_epi64(_mm_set1_epi64x(MIRROR_64), _mm_and_si128(bits, _mm_set1_epi64x(EXPONENT_64))))
-    },
-    gather_f64x2
-);
 row!(
     F32x8,
     __m256,
@@ -266,7 +233,9 @@ row!(
         let exponent = _mm256_and_si256(bits, _mm256_set1_epi32(EXPONENT_32));
         _mm256_castsi256_ps(_mm256_sub_epi32(_mm256_set1_epi32(MIRROR_32), exponent))
     },
-    gather_f32x8
+    gather_f32x8,
+    gather_f32x8,
+    scatter_f32x8
 );
 row!(
     F64x4,
@@ -293,7 +262,9 @@ row!(
         let exponent = _mm256_and_si256(bits, _mm256_set1_epi64x(EXPONENT_64));
         _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(MIRROR_64), exponent))
     },
-    gather_f64x4
+    gather_f64x4,
+    gather_converted_f64x4,
+    scatter_f64x4
 );
 row!(
     F32x16,
@@ -320,7 +291,9 @@ row!(
         let exponent = _mm512_and_si512(bits, _mm512_set1_epi32(EXPONENT_32));
         _mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(MIRROR_32), exponent))
     },
-    gather_f32x16
+    gather_f32x16,
+    gather_f32x16,
+    scatter_f32x16
 );
 row!(
     F64x8,
@@ -347,18 +320,10 @@ row!(
         let exponent = _mm512_and_si512(bits, _mm512_set1_epi64(EXPONENT_64));
         _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64(MIRROR_64), exponent))
     },
-    gather_f64x8
+    gather_f64x8,
+    gather_converted_f64x8,
+    scatter_f64x8
 );
-
-/// The address of point `index`.
-///
-/// # Safety
-/// The index is that of a point of the array.
-#[inline(always)]
-unsafe fn at<S>(base: *const u8, stride: usize, index: u32) -> *const S {
-    // SAFETY: inside the array, by the caller's word.
-    unsafe { base.add(index as usize * stride).cast() }
-}
 
 /// See [`super::prefetch`].
 #[inline(always)]
@@ -402,185 +367,4 @@ pub(super) fn follow_chain<const N: usize>(keys: &[u32; N], links: &[u32; N], co
         let closed = _mm_andnot_si128(failed, _mm_cmpeq_epi32(end, first));
         (_mm_movemask_epi8(closed) == 0xffff).then_some(chain)
     }
-}
-
-// SAFETY of the gathers: the caller of `Vector::gather` vouches that each index is that of a point and, if `WIDE`, that
-// the next point follows it immediately, so that four scalars may be loaded from its first coordinate on.
-
-/// The three coordinates at `point`, and in the fourth place whatever.
-#[inline(always)]
-unsafe fn point_f32<const WIDE: bool>(point: *const f32) -> __m128 {
-    // SAFETY: see above; a narrow load takes two coordinates and one.
-    unsafe {
-        if WIDE {
-            _mm_loadu_ps(point)
-        } else {
-            // The load of two takes any alignment; that of a double would not.
-            _mm_movelh_ps(_mm_castsi128_ps(_mm_loadl_epi64(point.cast())), _mm_load_ss(point.add(2)))
-        }
-    }
-}
-
-/// As [`point_f32`].
-#[inline(always)]
-unsafe fn point_f64<const WIDE: bool>(point: *const f64) -> __m256d {
-    // SAFETY: as there.
-    unsafe {
-        if WIDE {
-            _mm256_loadu_pd(point)
-        } else {
-            _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(_mm_loadu_pd(point)), _mm_load_sd(point.add(2)))
-        }
-    }
-}
-
-#[inline(always)]
-unsafe fn gather_f32x4<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m128, __m128, __m128) {
-    // SAFETY: see above.
-    unsafe {
-        let row = [
-            point_f32::<WIDE>(at(base, stride, i[0])),
-            point_f32::<WIDE>(at(base, stride, i[1])),
-            point_f32::<WIDE>(at(base, stride, i[2])),
-            point_f32::<WIDE>(at(base, stride, i[3])),
-        ];
-        let xy01 = _mm_unpacklo_ps(row[0], row[1]);
-        let z01 = _mm_unpackhi_ps(row[0], row[1]);
-        let xy23 = _mm_unpacklo_ps(row[2], row[3]);
-        let z23 = _mm_unpackhi_ps(row[2], row[3]);
-        (_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23))
-    }
-}
-
-/// Two points' first four scalars, in the two halves of a register.
-#[inline(always)]
-unsafe fn pair_f32<const WIDE: bool>(base: *const u8, stride: usize, low: u32, high: u32) -> __m256 {
-    // SAFETY: see above.
-    unsafe {
-        let low = _mm256_castps128_ps256(point_f32::<WIDE>(at(base, stride, low)));
-        _mm256_insertf128_ps::<1>(low, point_f32::<WIDE>(at(base, stride, high)))
-    }
-}
-
-#[inline(always)]
-unsafe fn gather8_f32<const WIDE: bool>(base: *const u8, stride: usize, i: [u32; 8]) -> (__m256, __m256, __m256) {
-    // SAFETY: see above.
-    unsafe {
-        let row = [
-            pair_f32::<WIDE>(base, stride, i[0], i[4]),
-            pair_f32::<WIDE>(base, stride, i[1], i[5]),
-            pair_f32::<WIDE>(base, stride, i[2], i[6]),
-            pair_f32::<WIDE>(base, stride, i[3], i[7]),
-        ];
-        let xy01 = _mm256_unpacklo_ps(row[0], row[1]);
-        let z01 = _mm256_unpackhi_ps(row[0], row[1]);
-        let xy23 = _mm256_unpacklo_ps(row[2], row[3]);
-        let z23 = _mm256_unpackhi_ps(row[2], row[3]);
-        (
-            _mm256_shuffle_ps::<0x44>(xy01, xy23),
-            _mm256_shuffle_ps::<0xee>(xy01, xy23),
-            _mm256_shuffle_ps::<0x44>(z01, z23),
-        )
-    }
-}
-
-#[inline(always)]
-unsafe fn gather_f32x8<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m256, __m256, __m256) {
-    // SAFETY: see above.
-    unsafe { gather8_f32::<WIDE>(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]) }
-}
-
-#[inline(always)]
-unsafe fn gather_f32x16<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m512, __m512, __m512) {
-    // SAFETY: see above.
-    unsafe {
-        let low = gather8_f32::<WIDE>(base, stride, [i[0], i[1], i[2], i[3], i[4], i[5], i[6], i[7]]);
-        let high = gather8_f32::<WIDE>(base, stride, [i[8], i[9], i[10], i[11], i[12], i[13], i[14], i[15]]);
-        (join_f32(low.0, high.0), join_f32(low.1, high.1), join_f32(low.2, high.2))
-    }
-}
-
-#[inline(always)]
-unsafe fn join_f32(low: __m256, high: __m256) -> __m512 {
-    // SAFETY: register moves only.
-    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high) }
-}
-
-#[inline(always)]
-unsafe fn gather_f64x2<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m128d, __m128d, __m128d) {
-    // SAFETY: see above.
-    unsafe {
-        let (p, q): (*const f64, *const f64) = (at(base, stride, i[0]), at(base, stride, i[1]));
-        let (xy0, xy1) = (_mm_loadu_pd(p), _mm_loadu_pd(q));
-        let z = _mm_loadh_pd(_mm_load_sd(p.add(2)), q.add(2));
-        (_mm_unpacklo_pd(xy0, xy1), _mm_unpackhi_pd(xy0, xy1), z)
-    }
-}
-
-#[inline(always)]
-unsafe fn gather4_f64<const WIDE: bool>(base: *const u8, stride: usize, i: [u32; 4]) -> (__m256d, __m256d, __m256d) {
-    // SAFETY: see above.
-    unsafe {
-        let row = [
-            point_f64::<WIDE>(at(base, stride, i[0])),
-            point_f64::<WIDE>(at(base, stride, i[1])),
-            point_f64::<WIDE>(at(base, stride, i[2])),
-            point_f64::<WIDE>(at(base, stride, i[3])),
-        ];
-        let xz01 = _mm256_unpacklo_pd(row[0], row[1]);
-        let y01 = _mm256_unpackhi_pd(row[0], row[1]);
-        let xz23 = _mm256_unpacklo_pd(row[2], row[3]);
-        let y23 = _mm256_unpackhi_pd(row[2], row[3]);
-        (
-            _mm256_permute2f128_pd::<0x20>(xz01, xz23),
-            _mm256_permute2f128_pd::<0x20>(y01, y23),
-            _mm256_permute2f128_pd::<0x31>(xz01, xz23),
-        )
-    }
-}
-
-#[inline(always)]
-unsafe fn gather_f64x4<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m256d, __m256d, __m256d) {
-    // SAFETY: see above.
-    unsafe { gather4_f64::<WIDE>(base, stride, [i[0], i[1], i[2], i[3]]) }
-}
-
-#[inline(always)]
-unsafe fn gather_f64x8<const WIDE: bool>(
-    base: *const u8,
-    stride: usize,
-    i: &[u32; MAX_LANES],
-) -> (__m512d, __m512d, __m512d) {
-    // SAFETY: see above.
-    unsafe {
-        let low = gather4_f64::<WIDE>(base, stride, [i[0], i[1], i[2], i[3]]);
-        let high = gather4_f64::<WIDE>(base, stride, [i[4], i[5], i[6], i[7]]);
-        (join_f64(low.0, high.0), join_f64(low.1, high.1), join_f64(low.2, high.2))
-    }
-}
-
-#[inline(always)]
-unsafe fn join_f64(low: __m256d, high: __m256d) -> __m512d {
-    // SAFETY: register moves only.
-    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high) }
 }

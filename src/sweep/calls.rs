@@ -2,9 +2,9 @@
 //! positions, and not again for every estimator. Only blocks and lone vertices know the estimator; a virtual call leads to
 //! each, which costs nothing beside what it does.
 
-use super::ring::{PolygonFaces, Ring, RingFaces, Scratch, Triangles, VertexFans};
-use super::{NormalRows, Part, Quantity};
-use crate::simd::{Level, Task, Vector, Width, dispatch};
+use super::ring::{PlaneFaces, Polygon, PolygonFaces, Ring, RingFaces, Scratch, Triangles, VertexFans};
+use super::{FaceNeeds, NormalRows, Part, Quantity};
+use crate::simd::{Level, Real, Task, Vector, Width, dispatch};
 
 /// What a vertex-by-vertex path calls.
 pub(super) trait AloneCalls {
@@ -28,6 +28,16 @@ pub(super) trait AloneCalls {
     );
     /// [`Quantity::isolated`]
     fn isolated(&self, vertex: usize);
+    /// [`Quantity::EDGES`], in a mesh that has other faces than triangles.
+    fn needs_edges(&self) -> bool;
+    /// Whether [`Quantity::FACES`] are planes.
+    fn planes(&self) -> bool;
+    /// Whether [`Quantity::FACES`] are frames.
+    fn frames(&self) -> bool;
+    /// [`Quantity::UNITS`]
+    fn units(&self) -> bool;
+    /// [`Quantity::DOUBTS_FOUR`]
+    fn doubts_four(&self) -> bool;
 }
 
 /// What the loop of a width calls. Scales are handed by reference, since a vector cannot be handed by value to what lacks its
@@ -35,27 +45,21 @@ pub(super) trait AloneCalls {
 pub(super) trait BlockCalls<W: Width>: AloneCalls {
     /// [`Quantity::SINGLE`]
     fn has_single(&self) -> bool;
-    /// [`Quantity::block`] in single precision; its mesh is one of triangles.
+    /// [`Quantity::block`] in single precision.
     fn single(
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Single, Triangles>,
+        faces: LoadedFaces<'_, W::Single>,
         scale: &W::Single,
         scratch: &mut Scratch<'_, W::Single>,
     ) -> u32;
-    /// [`Quantity::block`] in double precision, in a mesh of triangles.
-    fn triangles(
+    /// [`Quantity::block`] in double precision.
+    fn double(
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Double, Triangles>,
-        scale: &W::Double,
-        scratch: &mut Scratch<'_, W::Double>,
-    ) -> u32;
-    /// [`Quantity::block`] in a mesh that has other faces.
-    fn polygons(
-        &self,
-        vertices: &[u32],
-        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
+        faces: LoadedFaces<'_, W::Double>,
         scale: &W::Double,
         scratch: &mut Scratch<'_, W::Double>,
     ) -> u32;
@@ -69,6 +73,12 @@ pub(super) trait Calls: Sync {
     fn flat_angles(&self) -> bool;
     /// [`Quantity::neighbour_normals`]
     fn neighbour_normals(&self) -> Option<NormalRows<'_>>;
+    /// Whether [`Quantity::FACES`] are planes.
+    fn planes(&self) -> bool;
+    /// Whether [`Quantity::FACES`] are frames.
+    fn frames(&self) -> bool;
+    /// [`Quantity::SINGLE`]
+    fn has_single(&self) -> bool;
     /// Does a thread's part of a sweep with the vectors of `level`.
     fn work(&self, level: Level, part: Part<'_, '_, '_, '_>);
 }
@@ -82,6 +92,15 @@ impl<Q: Quantity> Calls for Q {
     }
     fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         Quantity::neighbour_normals(self)
+    }
+    fn planes(&self) -> bool {
+        Q::FACES == FaceNeeds::Planes
+    }
+    fn frames(&self) -> bool {
+        Q::FACES == FaceNeeds::Frames
+    }
+    fn has_single(&self) -> bool {
+        Q::SINGLE
     }
     fn work(&self, level: Level, part: Part<'_, '_, '_, '_>) {
         dispatch(level, One { quantity: self, part });
@@ -115,6 +134,15 @@ impl<A: Quantity, B: Quantity> Calls for Both<'_, A, B> {
     }
     fn neighbour_normals(&self) -> Option<NormalRows<'_>> {
         None
+    }
+    fn planes(&self) -> bool {
+        A::FACES == FaceNeeds::Planes || B::FACES == FaceNeeds::Planes
+    }
+    fn frames(&self) -> bool {
+        A::FACES == FaceNeeds::Frames || B::FACES == FaceNeeds::Frames
+    }
+    fn has_single(&self) -> bool {
+        A::SINGLE && B::SINGLE
     }
     fn work(&self, level: Level, part: Part<'_, '_, '_, '_>) {
         dispatch(level, Two { both: self, part });
@@ -167,6 +195,21 @@ impl<W: Width> AloneCalls for BothCalls<'_, W> {
         self.first.isolated(vertex);
         self.second.isolated(vertex);
     }
+    fn needs_edges(&self) -> bool {
+        self.first.needs_edges() || self.second.needs_edges()
+    }
+    fn planes(&self) -> bool {
+        self.first.planes() || self.second.planes()
+    }
+    fn frames(&self) -> bool {
+        self.first.frames() || self.second.frames()
+    }
+    fn units(&self) -> bool {
+        self.first.units() || self.second.units()
+    }
+    fn doubts_four(&self) -> bool {
+        self.first.doubts_four() || self.second.doubts_four()
+    }
 }
 
 impl<W: Width> BlockCalls<W> for BothCalls<'_, W> {
@@ -177,28 +220,23 @@ impl<W: Width> BlockCalls<W> for BothCalls<'_, W> {
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Single, Triangles>,
+        faces: LoadedFaces<'_, W::Single>,
         scale: &W::Single,
         scratch: &mut Scratch<'_, W::Single>,
     ) -> u32 {
-        self.first.single(vertices, ring, scale, scratch) | self.second.single(vertices, ring, scale, scratch)
+        self.first.single(vertices, ring, faces, scale, scratch)
+            | self.second.single(vertices, ring, faces, scale, scratch)
     }
-    fn triangles(
+    fn double(
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Double, Triangles>,
+        faces: LoadedFaces<'_, W::Double>,
         scale: &W::Double,
         scratch: &mut Scratch<'_, W::Double>,
     ) -> u32 {
-        self.first.triangles(vertices, ring, scale, scratch) | self.second.triangles(vertices, ring, scale, scratch)
-    }
-    fn polygons(
-        &self,
-        vertices: &[u32],
-        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
-        scale: &W::Double,
-        scratch: &mut Scratch<'_, W::Double>,
-    ) -> u32 {
-        self.first.polygons(vertices, ring, scale, scratch) | self.second.polygons(vertices, ring, scale, scratch)
+        self.first.double(vertices, ring, faces, scale, scratch)
+            | self.second.double(vertices, ring, faces, scale, scratch)
     }
 }
 
@@ -227,6 +265,21 @@ impl<Q: Quantity> AloneCalls for Q {
     fn isolated(&self, vertex: usize) {
         Quantity::isolated(self, vertex);
     }
+    fn needs_edges(&self) -> bool {
+        Q::EDGES
+    }
+    fn planes(&self) -> bool {
+        Q::FACES == FaceNeeds::Planes
+    }
+    fn frames(&self) -> bool {
+        Q::FACES == FaceNeeds::Frames
+    }
+    fn units(&self) -> bool {
+        Q::UNITS
+    }
+    fn doubts_four(&self) -> bool {
+        Q::DOUBTS_FOUR
+    }
 }
 
 impl<W: Width, Q: Quantity> BlockCalls<W> for Q {
@@ -237,29 +290,51 @@ impl<W: Width, Q: Quantity> BlockCalls<W> for Q {
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Single, Triangles>,
+        faces: LoadedFaces<'_, W::Single>,
         scale: &W::Single,
         scratch: &mut Scratch<'_, W::Single>,
     ) -> u32 {
         // A quantity that is never computed in single precision is not compiled for it.
-        if Q::SINGLE { call::<W, Q, _, _>(self, vertices, ring, scale, scratch) } else { 0 }
+        if Q::SINGLE { with_faces::<W, Q, _>(self, vertices, ring, faces, scale, scratch) } else { 0 }
     }
-    fn triangles(
+    fn double(
         &self,
         vertices: &[u32],
         ring: &Ring<'_, W::Double, Triangles>,
+        faces: LoadedFaces<'_, W::Double>,
         scale: &W::Double,
         scratch: &mut Scratch<'_, W::Double>,
     ) -> u32 {
-        call::<W, Q, _, _>(self, vertices, ring, scale, scratch)
+        with_faces::<W, Q, _>(self, vertices, ring, faces, scale, scratch)
     }
-    fn polygons(
-        &self,
-        vertices: &[u32],
-        ring: &Ring<'_, W::Double, PolygonFaces<'_, W::Double>>,
-        scale: &W::Double,
-        scratch: &mut Scratch<'_, W::Double>,
-    ) -> u32 {
-        call::<W, Q, _, _>(self, vertices, ring, scale, scratch)
+}
+
+/// What is known of a block's faces where these are other than triangles: as much as some quantity of the sweep needs.
+#[derive(Clone, Copy)]
+pub(super) struct LoadedFaces<'r, V> {
+    pub planes: Option<&'r [[V; 4]]>,
+    pub frames: Option<&'r [Polygon<V>]>,
+}
+
+/// [`Quantity::block`] with the faces that the quantity looks at.
+fn with_faces<W: Width, Q: Quantity, V: Vector>(
+    quantity: &Q,
+    vertices: &[u32],
+    ring: &Ring<'_, V, Triangles>,
+    faces: LoadedFaces<'_, V>,
+    scale: &V,
+    scratch: &mut Scratch<'_, V>,
+) -> u32 {
+    match (Q::FACES, faces) {
+        (FaceNeeds::Planes, LoadedFaces { planes: Some(rows), .. }) => {
+            let ring = ring.with_faces(PlaneFaces { rows, scale: *scale });
+            call::<W, Q, _, _>(quantity, vertices, &ring, scale, scratch)
+        }
+        // Frames are in double precision.
+        (FaceNeeds::Frames, LoadedFaces { frames: Some(frames), .. }) if !V::Scalar::SINGLE => {
+            call::<W, Q, _, _>(quantity, vertices, &ring.with_faces(PolygonFaces(frames)), scale, scratch)
+        }
+        _ => call::<W, Q, _, _>(quantity, vertices, ring, scale, scratch),
     }
 }
 

@@ -183,7 +183,7 @@ pub(crate) struct Asked<'a> {
 }
 
 /// The frame of the polygon with the given corners.
-fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], asked: Asked<'_>) -> Frame {
+pub(super) fn frame<S: Coordinate>(points: &StridedPoints<'_, S>, corners: &[u32], asked: Asked<'_>) -> Frame {
     let may_turn = corners.len() > 3;
     let share = 1.0 / corners.len().max(1) as f64;
     let mean_normal = asked.normals.map_or(DVec3::ZERO, |normals| {

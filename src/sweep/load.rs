@@ -3,11 +3,12 @@
 
 use super::calls::AloneCalls;
 use super::frames::Frames;
+use super::planes::{Nearby, Planes};
 use super::ring::{Polygon, PolygonFaces, Ring, Scratch, Triangles, VertexFans};
 use super::rows::{LANE_EDGES, LaneRows, Rows};
 use super::{NormalRows, Sweep};
-use crate::simd::{Real, Vector, Vector3};
-use crate::view::{Batch, Coordinate, Rings, StridedPoints};
+use crate::simd::{Mask, Real, Vector, Vector3};
+use crate::view::{Block, Coordinate, Rings, StridedPoints};
 use glam::DVec3;
 use std::sync::PoisonError;
 
@@ -33,59 +34,104 @@ pub(super) struct Loaded<'r, V> {
     pub scale: V,
     /// One for each corner, to be filled where they are not triangles.
     pub faces: &'r mut [Polygon<V>],
+    /// The planes of the faces, where they are needed.
+    pub planes: Option<&'r [[V; 4]]>,
     /// For the estimator.
     pub scratch: Scratch<'r, V>,
+}
+
+/// What is to be loaded.
+pub(super) struct Needed<'a, S> {
+    /// Whether edges are.
+    pub edges: bool,
+    /// Whether the units of rings are to be such that the longest component is between 1 and 2.
+    pub units: bool,
+    /// The planes of faces, where these are other than triangles and some quantity looks at planes.
+    pub planes: Option<Planes<'a, S>>,
 }
 
 impl<S: Coordinate> Sweep<'_, S> {
     /// Fetches what the block that comes next needs, where memory would otherwise be waited for.
     #[inline(always)]
-    pub(super) fn prefetch(&self, batch: &Batch, next: Option<&&[u32]>, corners: usize) {
-        let Some(block) = next.filter(|_| batch.is_scattered()) else { return };
-        let rings = self.topology.rings();
-        rings.prefetch(self.points, block, corners);
+    pub(super) fn prefetch(&self, next: Option<&Block<'_, '_>>) {
+        let Some(block) = next else { return };
+        block.prefetch(self.points);
         match &self.normals {
-            Some(NeighbourNormals::Single(normals)) => rings.prefetch(normals, block, corners),
-            Some(NeighbourNormals::Double(normals)) => rings.prefetch(normals, block, corners),
+            Some(NeighbourNormals::Single(normals)) => block.prefetch(normals),
+            Some(NeighbourNormals::Double(normals)) => block.prefetch(normals),
             None => {}
         }
     }
 
-    /// Loads the rings of a block, in their own units.
+    /// Loads the rings of a block, in their own units. A ring whose edges are neither very short nor very long is
+    /// loaded as it is where units do not matter: a power of two would change no digit of it.
     #[inline(always)]
     pub(super) fn load<'r, V: Vector>(
         &self,
-        block: &[u32],
-        corners: usize,
-        closed: bool,
+        block: &Block<'_, '_>,
+        needed: &Needed<'_, S>,
+        nearby: &Nearby<V::Scalar>,
         rows: &'r mut LaneRows<V>,
     ) -> Loaded<'r, V> {
-        let Rows { edges, squared, normals, faces, scratch } = rows.rows();
+        let Rows { edges, squared, normals, faces, planes, scratch } = rows.rows();
+        let corners = block.corners();
         let edges = &mut edges[..corners + 1];
         let squared = &mut squared[..corners + 1];
+        let lanes = block.lanes::<V>();
         let normals: &[_] = match &self.normals {
             Some(values) => {
-                let rings = self.topology.rings();
                 match values {
                     NeighbourNormals::Single(values) => {
-                        rings.load_values(values, block, corners, closed, normals);
+                        lanes.load_values(values, normals);
                         normals[..corners + 1].iter_mut().for_each(|normal| *normal = lengthened(*normal));
                     }
-                    NeighbourNormals::Double(values) => rings.load_values(values, block, corners, closed, normals),
+                    NeighbourNormals::Double(values) => lanes.load_values(values, normals),
                 }
                 &normals[..corners + 1]
             }
             None => &[],
         };
-        self.topology.rings().load_edges(self.points, block, corners, closed, edges);
-        let mut extent = V::zero();
-        for edge in edges.iter() {
-            extent = edge.largest_component().max(extent);
+        let planes = match needed.planes {
+            Some(source) => {
+                let planes = &mut planes[..corners];
+                for (corner, row) in planes.iter_mut().enumerate() {
+                    *row = source.load::<V>(nearby, &lanes, corner);
+                }
+                Some(&*planes)
+            }
+            None => None,
+        };
+        if !needed.edges {
+            // The size of the ring is that of its faces.
+            let mut largest = V::zero();
+            for [.., size] in planes.unwrap_or(&[]) {
+                largest = size.abs().max(largest);
+            }
+            let ordinary = V::constant(SHORT).lt(largest).and(largest.lt(V::constant(LONG)));
+            let scale = match ordinary.bits() == V::ALL {
+                true => V::one(),
+                false => V::select(ordinary, V::one(), largest.unit_scale()),
+            };
+            let ring = Ring { edges, squared, closed: block.closed(), faces: Triangles, normals };
+            return Loaded { ring, scale, faces: &mut faces[..corners], planes, scratch };
         }
-        let scale = extent.unit_scale();
-        scale_edges(edges, squared, scale);
-        let ring = Ring { edges, squared, closed, faces: Triangles, normals };
-        Loaded { ring, scale, faces: &mut faces[..corners], scratch }
+        let (shortest, longest) = lanes.load_edges(self.points, edges, squared);
+        // What is not a number or infinite is not ordinary either.
+        let ordinary = V::constant(SHORT * SHORT).lt(shortest).and(longest.lt(V::constant(LONG * LONG)));
+        let mut scale = V::one();
+        if needed.units || ordinary.bits() != V::ALL {
+            let mut extent = V::zero();
+            for edge in edges.iter() {
+                extent = edge.largest_component().max(extent);
+            }
+            scale = extent.unit_scale();
+            if !needed.units {
+                scale = V::select(ordinary, V::one(), scale);
+            }
+            scale_edges(edges, squared, scale);
+        }
+        let ring = Ring { edges, squared, closed: block.closed(), faces: Triangles, normals };
+        Loaded { ring, scale, faces: &mut faces[..corners], planes, scratch }
     }
 
     /// Fills `faces` in the ring's units, the lanes beyond `block` with copies of its first.
@@ -152,7 +198,7 @@ impl<S: Coordinate> Sweep<'_, S> {
     }
 
     fn alone_in(&self, calls: &dyn AloneCalls, vertex: usize, rows: Rows<'_, f64>) {
-        let Rows { edges, squared, normals, faces, mut scratch } = rows;
+        let Rows { edges, squared, normals, faces, mut scratch, .. } = rows;
         // Positions so far apart that their difference overflows are brought closer first; the factor is exact
         // for them.
         let mut factor = 1.0;
@@ -222,6 +268,12 @@ impl<S: Coordinate> Sweep<'_, S> {
         (count, edges[..count].iter().fold(0.0, |extent, edge| edge.largest_component().max(extent)))
     }
 }
+
+/// Rings of edges between these lengths are not scaled. Estimators compare squares of edges and of cross products with
+/// [`Real::TINY`], which in single precision is 2^-100: where that could make a difference, sines are below 2^-10, and such
+/// corners are left to double precision in any units.
+const SHORT: f64 = 1.0 / 1024.0;
+const LONG: f64 = 1024.0;
 
 /// A normal from single precision at length 1, to the precision of the lanes; single precision leaves it as it is.
 #[inline(always)]

@@ -8,7 +8,8 @@
 //! |---|---|---|
 //! | triangles, `f32` in and out | `f32` lanes | `f64` lanes, then alone |
 //! | triangles, any `f64` | `f64` lanes | alone |
-//! | polygons | `f64` lanes | alone |
+//! | polygons, `f32` in and out, if planes are enough | `f32` lanes | `f64` lanes, then alone |
+//! | polygons otherwise | `f64` lanes | alone |
 //! | several fans, large fans | alone, in `f64` | |
 //!
 //! Which way a vertex goes depends on its own ring and nothing else.
@@ -19,6 +20,7 @@ mod frames;
 mod load;
 mod patch;
 mod patch_sweep;
+mod planes;
 mod ring;
 mod rows;
 
@@ -30,15 +32,15 @@ pub(crate) use patch_sweep::sweep_patches;
 pub(crate) use ring::{Corner, Face, Ring, RingFaces, Scratch, VertexFans};
 
 use crate::error::Error;
-use crate::parallel::{Claims, Run, for_each_chunk};
+use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
 use crate::simd::{Task, Vector, Width};
 use crate::topology::Topology;
-use crate::view::{Batch, Coordinate, PointArray, Points, RingClass, StridedPoints, WINDOW};
-use calls::{BlockCalls, Both, Calls};
+use crate::view::{Batch, Coordinate, Group, Kept, PointArray, Points, RingClass, StridedPoints, WINDOW};
+use calls::{BlockCalls, Both, Calls, LoadedFaces};
 use check::{check_points, corners_met};
 use frames::{Asked, Frames};
-use load::{Loaded, NeighbourNormals};
-use ring::PolygonFaces;
+use load::{Loaded, Needed, NeighbourNormals};
+use planes::{LargeFace, Nearby, Planes, large_faces};
 use rows::{LaneRows, LargeRows};
 use std::sync::Mutex;
 
@@ -46,6 +48,14 @@ use std::sync::Mutex;
 pub(crate) trait Quantity: Sync {
     /// Whether it is ever computed in single precision.
     const SINGLE: bool = true;
+    /// What it needs of the faces of a mesh that has others than triangles.
+    const FACES: FaceNeeds = FaceNeeds::Frames;
+    /// Whether it looks at edges in such a mesh.
+    const EDGES: bool = true;
+    /// Whether results depend on the units of a ring.
+    const UNITS: bool = true;
+    /// Whether four edges around a vertex mostly leave too much in doubt in single precision.
+    const DOUBTS_FOUR: bool = false;
     /// Whether polygons need their centroids.
     const CENTROIDS: bool = false;
     /// Whether the angles of polygons that are not flat are made up to those of flat ones.
@@ -79,6 +89,17 @@ pub(crate) trait Quantity: Sync {
 
     /// Writes a vertex that has no face.
     fn isolated(&self, vertex: usize);
+}
+
+/// What an estimator needs to know of faces that are not triangles, from less to more.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FaceNeeds {
+    /// Nothing.
+    Unused,
+    /// Normals and areas.
+    Planes,
+    /// All that a [`Face`] tells; in double precision.
+    Frames,
 }
 
 /// Normals of all vertices.
@@ -193,12 +214,17 @@ fn sweep_points<S: Coordinate>(
     any: impl for<'a> Fn(&'a Sweep<'a, S>) -> AnySweep<'a> + Sync,
 ) -> Result<(), Error> {
     // Without memory for all of them, polygons are computed where they are met.
-    let few = room.is_some() || run.vertices.is_some_and(|vertices| corners_met(topology, vertices).is_some());
+    let many = room.is_none() && run.vertices.is_none_or(|vertices| corners_met(topology, vertices).is_none());
+    let all_frames = many && calls.frames();
+    let large_faces = match topology.polygons() {
+        Some(polygons) if many && calls.planes() => large_faces(points, polygons)?,
+        _ => Vec::new(),
+    };
     let frames = match topology.polygons() {
         Some(polygons) => {
             let normals = calls.neighbour_normals();
             let asked = Asked { centroids: calls.centroids(), bends: calls.flat_angles(), normals };
-            Some(Frames::new(points, polygons, asked, few, run.threads)?)
+            Some(Frames::new(points, polygons, asked, !all_frames, run.threads)?)
         }
         None => None,
     };
@@ -218,7 +244,31 @@ fn sweep_points<S: Coordinate>(
             &own
         }
     };
-    let sweep = Sweep { topology, points, frames, normals, vertices, double, large };
+    let mut nearby = (Vec::new(), Vec::new());
+    if topology.polygons().is_some() && calls.planes() && vertices.is_none() {
+        for _ in 0..thread_count(run.threads, chunks) {
+            if double || !calls.has_single() || calls.frames() {
+                nearby.1.try_reserve(1)?;
+                nearby.1.push(Nearby::new()?);
+            } else {
+                nearby.0.try_reserve(1)?;
+                nearby.0.push(Nearby::new()?);
+            }
+        }
+    }
+    let (single_planes, double_planes) = (Mutex::new(nearby.0), Mutex::new(nearby.1));
+    let sweep = Sweep {
+        topology,
+        points,
+        frames,
+        large_faces,
+        single_planes,
+        double_planes,
+        normals,
+        vertices,
+        double,
+        large,
+    };
     for_each_chunk(run, chunks, |claims| calls.work(level, Part { sweep: any(&sweep), claims }))
 }
 
@@ -226,6 +276,11 @@ struct Sweep<'a, S> {
     topology: &'a Topology,
     points: &'a StridedPoints<'a, S>,
     frames: Option<Frames<'a, S>>,
+    large_faces: Vec<LargeFace>,
+    /// One for each thread, if vertices are computed in single precision and look at planes.
+    single_planes: Mutex<Vec<Nearby<f32>>>,
+    /// One for each thread, if all are computed in double precision and look at planes.
+    double_planes: Mutex<Vec<Nearby<f64>>>,
     normals: Option<NeighbourNormals<'a>>,
     vertices: Option<&'a [u32]>,
     double: bool,
@@ -269,64 +324,76 @@ impl<W: Width, S: Coordinate> Task for Worker<'_, '_, '_, '_, W, S> {
     #[inline(always)]
     fn run<Same: Width>(self) {
         let Worker { sweep, calls, claims } = self;
-        let single = !sweep.double && sweep.frames.is_none() && calls.has_single();
+        let polygons = sweep.topology.polygons();
+        let planes = polygons.filter(|_| calls.planes()).map(|polygons| Planes {
+            points: sweep.points,
+            polygons,
+            large: &sweep.large_faces,
+        });
+        let frames = sweep.frames.as_ref().filter(|_| calls.frames());
+        let single = !sweep.double && frames.is_none() && calls.has_single();
+        let mut single_planes = Nearby::take(&sweep.single_planes);
+        let mut double_planes = Nearby::take(&sweep.double_planes);
+        let needed = Needed { edges: polygons.is_none() || calls.needs_edges(), units: calls.units(), planes };
         let mut single_rows = LaneRows::<W::Single>::new();
         let mut double_rows = LaneRows::<W::Double>::new();
         let mut alone_rows = LaneRows::<f64>::new();
-        let mut batch = Batch::new();
-        let mut doubtful = [0u32; WINDOW];
+        let mut batch = Batch::new(sweep.topology.rings());
+        let mut doubtful = Kept::new();
         while let Some(chunk) = claims.next() {
             match sweep.vertices {
-                None => sweep.topology.rings().fill_window(chunk, &mut batch),
+                None => {
+                    batch.fill_window(chunk);
+                    if let Some(planes) = planes {
+                        let entries = || sweep.topology.rings().window_entries(chunk);
+                        single_planes.fill::<_, W::Single>(planes, entries());
+                        double_planes.fill::<_, W::Double>(planes, entries());
+                    }
+                }
                 Some(list) => {
                     let list = &list[chunk * WINDOW..];
-                    sweep.topology.rings().fill_list(&list[..list.len().min(WINDOW)], &mut batch);
+                    batch.fill_list(&list[..list.len().min(WINDOW)]);
                 }
             }
             for index in 0..batch.len() {
-                let (class, vertices) = batch.get(index);
-                let mut vertices = vertices;
-                let (corners, closed) = match class {
-                    RingClass::Isolated => {
+                let group = match batch.get(index) {
+                    Group::Isolated(vertices) => {
                         vertices.iter().for_each(|&vertex| calls.isolated(vertex as usize));
                         continue;
                     }
-                    RingClass::Alone => {
+                    Group::Alone(vertices) => {
                         vertices.iter().for_each(|&vertex| sweep.alone(calls, vertex as usize, &mut alone_rows));
                         continue;
                     }
-                    RingClass::Lanes { corners, closed } => (corners, closed),
+                    Group::Lanes(group) => group,
                 };
-                if single {
-                    let mut count = 0;
-                    let mut blocks = vertices.chunks(W::Single::LANES).peekable();
+                let mut remaining = group;
+                let four = polygons.is_some() && group.closed() && group.corners() == 4;
+                if single && !(four && calls.doubts_four()) {
+                    doubtful.start(group);
+                    let mut blocks = group.chunks(W::Single::LANES).peekable();
                     while let Some(block) = blocks.next() {
-                        sweep.prefetch(&batch, blocks.peek(), corners);
-                        let Loaded { ring, scale, mut scratch, .. } =
-                            sweep.load(block, corners, closed, &mut single_rows);
-                        let bits = calls.single(block, &ring, &scale, &mut scratch);
-                        if bits != 0 {
-                            for (_, &vertex) in block.iter().enumerate().filter(|(lane, _)| bits & 1 << lane != 0) {
-                                doubtful[count] = vertex;
-                                count += 1;
-                            }
-                        }
+                        sweep.prefetch(blocks.peek());
+                        let Loaded { ring, scale, planes, mut scratch, .. } =
+                            sweep.load(&block, &needed, &single_planes, &mut single_rows);
+                        let faces = LoadedFaces { planes, frames: None };
+                        doubtful.keep(block, calls.single(block.vertices(), &ring, faces, &scale, &mut scratch));
                     }
-                    vertices = &doubtful[..count];
+                    remaining = doubtful.block();
                 }
-                let mut blocks = vertices.chunks(W::Double::LANES).peekable();
+                let mut blocks = remaining.chunks(W::Double::LANES).peekable();
                 while let Some(block) = blocks.next() {
-                    sweep.prefetch(&batch, blocks.peek(), corners);
-                    let Loaded { ring, scale, faces, mut scratch } =
-                        sweep.load(block, corners, closed, &mut double_rows);
-                    let bits = if let Some(frames) = &sweep.frames {
-                        sweep.load_faces(frames, calls.centroids(), block, scale, faces);
-                        calls.polygons(block, &ring.with_faces(PolygonFaces(faces)), &scale, &mut scratch)
-                    } else {
-                        calls.triangles(block, &ring, &scale, &mut scratch)
-                    };
+                    sweep.prefetch(blocks.peek());
+                    let vertices = block.vertices();
+                    let Loaded { ring, scale, faces, planes, mut scratch } =
+                        sweep.load(&block, &needed, &double_planes, &mut double_rows);
+                    if let Some(frames) = frames {
+                        sweep.load_faces(frames, calls.centroids(), vertices, scale, faces);
+                    }
+                    let faces = LoadedFaces { planes, frames: frames.map(|_| &*faces) };
+                    let bits = calls.double(vertices, &ring, faces, &scale, &mut scratch);
                     if bits != 0 {
-                        for (lane, &vertex) in block.iter().enumerate() {
+                        for (lane, &vertex) in vertices.iter().enumerate() {
                             if bits & 1 << lane != 0 {
                                 sweep.alone(calls, vertex as usize, &mut alone_rows);
                             }

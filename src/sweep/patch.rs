@@ -40,7 +40,12 @@ pub(crate) trait PatchQuantity: Sync {
 
     /// Fills `chosen` with the neighbours that count, ring after ring.
     #[inline(always)]
-    fn choose<V: Vector<Scalar = f64>>(&self, _vertex: u32, found: &Neighbourhood, chosen: &mut [u32]) -> Counts {
+    fn choose<V: Vector<Scalar = f64>, Z: Vector<Scalar = f32>>(
+        &self,
+        _vertex: u32,
+        found: &Neighbourhood,
+        chosen: &mut [u32],
+    ) -> Counts {
         let vertices = found.vertices();
         chosen[..vertices.len()].copy_from_slice(vertices);
         found.counts_within()

@@ -17,7 +17,7 @@ use super::patch::{Counts, MOST_EXTRA_RINGS, MOST_RINGS, Patch, PatchQuantity};
 use crate::error::Error;
 use crate::parallel::{Claims, Run, for_each_chunk, thread_count};
 use crate::simd::{MAX_LANES, Task, Vector, Vector3, Width, as_lanes, dispatch, each};
-use crate::topology::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood, Topology};
+use crate::topology::{FirstRings, MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood, Topology};
 use crate::view::{Coordinate, PointArray, Points, StridedPoints, zeroed};
 use std::sync::{Mutex, PoisonError};
 
@@ -81,10 +81,11 @@ fn sweep_points<Q: PatchQuantity, S: Coordinate>(
     let (vertices, level) = (run.vertices, run.level);
     let chunks = vertices.map_or(topology.vertex_count(), <[u32]>::len).div_ceil(GROUP);
     // All memory is there before the first result is written. What is not used of it is never touched.
+    let first_rings = if vertices.is_none() { FirstRings::new(topology)? } else { None };
     let mut spaces = Vec::new();
     for _ in 0..thread_count(run.threads, chunks) {
         spaces.try_reserve(1)?;
-        spaces.push(Space::new(topology, quantity)?);
+        spaces.push(Space::new(topology, quantity, first_rings.as_ref())?);
     }
     let spaces = Mutex::new(spaces);
     let sweep = PatchSweep { topology, points, vertices, quantity };
@@ -98,18 +99,22 @@ fn sweep_points<Q: PatchQuantity, S: Coordinate>(
 }
 
 /// One thread's memory.
-struct Space {
+struct Space<'r> {
     /// Points, normals and scratch of a block.
     numbers: Vec<f64>,
     /// The neighbourhoods of a group.
     neighbours: Vec<u32>,
     /// Those of a block, a vertex a lane.
     rows: Vec<[u32; MAX_LANES]>,
-    neighbourhood: Neighbourhood,
+    neighbourhood: Neighbourhood<'r>,
 }
 
-impl Space {
-    fn new<Q: PatchQuantity>(topology: &Topology, quantity: &Q) -> Result<Self, Error> {
+impl<'r> Space<'r> {
+    fn new<Q: PatchQuantity>(
+        topology: &Topology,
+        quantity: &Q,
+        first_rings: Option<&'r FirstRings>,
+    ) -> Result<Self, Error> {
         let coordinates = if Q::NEIGHBOUR_NORMALS { 6 } else { 3 } + quantity.values().is_some() as usize;
         // One row more, since the first may not start where a vector can.
         let rows = coordinates * MAX_NEIGHBOURS + quantity.scratch(MAX_NEIGHBOURS) + 1;
@@ -117,7 +122,7 @@ impl Space {
             numbers: zeroed(rows * DOUBLE_LANES)?,
             neighbours: zeroed(GROUP * MAX_NEIGHBOURS)?,
             rows: zeroed(MAX_NEIGHBOURS)?,
-            neighbourhood: Neighbourhood::new(topology)?,
+            neighbourhood: Neighbourhood::with_first_rings(topology, first_rings)?,
         })
     }
 }
@@ -133,7 +138,7 @@ struct PatchSweep<'a, Q, S> {
 struct Worker<'a, 'c, 'p, 's, Q, S> {
     sweep: &'a PatchSweep<'a, Q, S>,
     claims: &'c mut Claims<'s, 'p>,
-    space: Space,
+    space: Space<'a>,
 }
 
 /// A vertex of a group, and where its neighbourhood stands.
@@ -170,7 +175,7 @@ impl<Q: PatchQuantity, S: Coordinate> Task for Worker<'_, '_, '_, '_, Q, S> {
                 }
                 let widened = sweep.gather(vertex, &mut space.neighbourhood);
                 let chosen = &mut space.neighbours[end..];
-                let counts = sweep.quantity.choose::<W::Double>(vertex, &space.neighbourhood, chosen);
+                let counts = sweep.quantity.choose::<W::Double, W::Single>(vertex, &space.neighbourhood, chosen);
                 group[count] = Member { vertex, start: end as u32, counts, widened };
                 (count, end) = (count + 1, end + group[count].count());
             }
@@ -273,7 +278,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         group: &[Member; GROUP],
         block: &[u8],
         attempt: usize,
-        space: &mut Space,
+        space: &mut Space<'_>,
     ) -> u32 {
         let member = |lane: usize| &group[block[lane] as usize];
         // Sorted by count.
@@ -304,7 +309,8 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         }
         let full = if block.len() == V::LANES { full } else { 0 };
         let [within @ .., count]: [V; 4] = each(V::zero(), |index| V::from_lanes(&counts[index]));
-        let most_within = [0, 1, 2].map(|ring| counts[ring].iter().fold(0.0f64, |most, &x| most.max(x)) as usize);
+        let most = |ring: usize| counts[ring].iter().fold(0.0f64, |most, &x| most.max(x)) as usize;
+        let most_within = [most(0), most(1), most(2)];
         let all_normals = StridedPoints::from(self.quantity.normals());
         let normal = all_normals.lanes::<V>(&vertices);
         let centre = self.points.lanes::<V>(&vertices);
@@ -345,7 +351,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
 
     /// The vertex-by-vertex path.
     #[inline(never)]
-    fn alone(&self, vertex: u32, space: &mut Space) {
+    fn alone(&self, vertex: u32, space: &mut Space<'_>) {
         let Space { numbers, neighbourhood, .. } = space;
         let mut widened = self.gather(vertex, neighbourhood);
         loop {
@@ -368,7 +374,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         numbers: &mut [f64],
     ) -> bool {
         let mut chosen = [0; MAX_NEIGHBOURS];
-        let counts = self.quantity.choose::<f64>(vertex, neighbourhood, &mut chosen);
+        let counts = self.quantity.choose::<f64, f32>(vertex, neighbourhood, &mut chosen);
         let found = &chosen[..counts[3] as usize];
         let all_values = self.quantity.values();
         let (points, rest) = numbers.split_at_mut(3 * found.len());
@@ -396,7 +402,7 @@ impl<Q: PatchQuantity, S: Coordinate> PatchSweep<'_, Q, S> {
         let mut rings = [count; MAX_RINGS + 1];
         rings.iter_mut().zip(neighbourhood.counts()).for_each(|(ring, count)| *ring = count);
         let normal = Vector3 { x, y, z };
-        let most_within = [0, 1, 2].map(|ring| counts[ring] as usize);
+        let most_within = [counts[0] as usize, counts[1] as usize, counts[2] as usize];
         let within = most_within.map(|count| count as f64);
         let (full, count) = (count, count as f64);
         let patch = Patch { points, normals, values, normal, count, full, within, most_within, rings: &rings };

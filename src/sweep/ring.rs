@@ -29,8 +29,8 @@ impl<'a, V: Vector, F: RingFaces<V>> Ring<'a, V, F> {
     }
 
     /// The ring with other faces.
-    pub fn with_faces<G>(self, faces: G) -> Ring<'a, V, G> {
-        let Ring { edges, squared, closed, normals, .. } = self;
+    pub fn with_faces<G>(&self, faces: G) -> Ring<'a, V, G> {
+        let Ring { edges, squared, closed, normals, .. } = *self;
         Ring { edges, squared, closed, faces, normals }
     }
 
@@ -151,6 +151,43 @@ pub(crate) trait Face<V: Vector>: Copy {
     /// Where the face is not a triangle: from the vertex to the mean of its corners, the mean of their normals, and 1;
     /// elsewhere zeros. `None` in a mesh of triangles.
     fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)>;
+    /// What [`Face::area_factor`] lacks, the same for all faces.
+    const AREA_UNIT: f64 = 1.0;
+    /// The factor that makes its length the face's area divided by [`Face::AREA_UNIT`].
+    #[inline(always)]
+    fn area_factor(&self, corner: &Corner<V, Self>) -> V {
+        self.area(corner)
+    }
+    /// As [`Corner::spread`], for a factor that stays finite however thin the corner is.
+    #[inline(always)]
+    fn plain_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        corner.spread(factor)
+    }
+    /// As [`Corner::spread`], for a factor that is `by_sine` times [`Face::sine_product`].
+    #[inline(always)]
+    fn sine_spread(&self, corner: &Corner<V, Self>, factor: V, _by_sine: V) -> V {
+        corner.spread(factor)
+    }
+    /// As [`Corner::spread`], for a factor that the angle is in.
+    #[inline(always)]
+    fn angle_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        corner.spread(factor)
+    }
+    /// As [`Face::angle_spread`], where it also counts how much is missing to a straight angle.
+    #[inline(always)]
+    fn cone_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        corner.spread(factor)
+    }
+    /// [`Corner::spread`]
+    #[inline(always)]
+    fn spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        if V::Scalar::SINGLE {
+            let defined = V::splat(V::Scalar::TINY).lt(corner.cross_squared);
+            V::select(defined, factor * factor * corner.product, V::splat(V::Scalar::INFINITY))
+        } else {
+            (self.direction(corner) * factor).squared()
+        }
+    }
 }
 
 /// Two neighbouring edges and the face between them.
@@ -215,6 +252,21 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
     pub fn area(&self) -> V {
         self.face.area(self)
     }
+    /// [`Face::area_factor`]
+    #[inline(always)]
+    pub fn area_factor(&self) -> V {
+        self.face.area_factor(self)
+    }
+    /// [`Face::plain_spread`]
+    #[inline(always)]
+    pub fn plain_spread(&self, factor: V) -> V {
+        self.face.plain_spread(self, factor)
+    }
+    /// [`Face::sine_spread`]
+    #[inline(always)]
+    pub fn sine_spread(&self, factor: V, by_sine: V) -> V {
+        self.face.sine_spread(self, factor, by_sine)
+    }
     /// [`Face::sine_product`]
     #[inline(always)]
     pub fn sine_product(&self) -> V {
@@ -264,12 +316,17 @@ impl<V: Vector, F: Face<V>> Corner<V, F> {
     /// Only single precision asks; double precision answers with the term's square, which tells cancellation apart.
     #[inline(always)]
     pub fn spread(&self, factor: V) -> V {
-        if V::Scalar::SINGLE {
-            let defined = V::splat(V::Scalar::TINY).lt(self.cross_squared);
-            V::select(defined, factor * factor * self.product, V::splat(V::Scalar::INFINITY))
-        } else {
-            (self.direction() * factor).squared()
-        }
+        self.face.spread(self, factor)
+    }
+    /// [`Face::angle_spread`]
+    #[inline(always)]
+    pub fn angle_spread(&self, factor: V) -> V {
+        self.face.angle_spread(self, factor)
+    }
+    /// [`Face::cone_spread`]
+    #[inline(always)]
+    pub fn cone_spread(&self, factor: V) -> V {
+        self.face.cone_spread(self, factor)
     }
 }
 
@@ -310,6 +367,24 @@ impl<V: Vector> RingFaces<V> for Triangles {
 pub(crate) struct Triangle;
 
 impl<V: Vector> Face<V> for Triangle {
+    const AREA_UNIT: f64 = 0.5;
+    #[inline(always)]
+    fn area_factor(&self, _corner: &Corner<V, Self>) -> V {
+        V::one()
+    }
+    #[inline(always)]
+    fn plain_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        if V::Scalar::SINGLE { factor * factor * corner.product } else { corner.spread(factor) }
+    }
+    #[inline(always)]
+    fn sine_spread(&self, corner: &Corner<V, Self>, factor: V, by_sine: V) -> V {
+        if !V::Scalar::SINGLE {
+            return corner.spread(factor);
+        }
+        // A factor that dropped out is for double precision to judge.
+        let usable = V::zero().lt(by_sine);
+        V::select(usable, by_sine * by_sine * corner.product, V::splat(V::Scalar::INFINITY))
+    }
     #[inline(always)]
     fn direction(&self, corner: &Corner<V, Self>) -> Vector3<V> {
         corner.cross
@@ -396,8 +471,8 @@ impl<V: Vector> Polygon<V> {
         let mut lanes = [[V::Scalar::ZERO; MAX_LANES]; NUMBERS];
         for lane in 0..V::LANES {
             let Polygon { normal, area, centroid, share, bend, mean_normal, may_turn } = face(lane);
-            let [n, c, m] = [normal, centroid, mean_normal].map(|v| [v.x, v.y, v.z]);
-            let numbers = [n[0], n[1], n[2], c[0], c[1], c[2], m[0], m[1], m[2], area, share, bend, may_turn];
+            let (n, c, m) = (normal, centroid, mean_normal);
+            let numbers = [n.x, n.y, n.z, c.x, c.y, c.z, m.x, m.y, m.z, area, share, bend, may_turn];
             for (row, number) in lanes.iter_mut().zip(numbers) {
                 row[lane] = V::Scalar::from_f64(number);
             }
@@ -459,6 +534,106 @@ impl<V: Vector> Face<V> for Polygon<V> {
     #[inline(always)]
     fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)> {
         Some((self.centroid * self.may_turn, self.mean_normal * self.may_turn, self.may_turn))
+    }
+}
+
+/// Faces of any shape of which only normal and area are known, one for each corner.
+#[derive(Clone, Copy)]
+pub(crate) struct PlaneFaces<'a, V> {
+    /// As `planes.rs` has them; in units of the mesh.
+    pub rows: &'a [[V; 4]],
+    /// How many of the ring's units make one of the mesh.
+    pub scale: V,
+}
+
+impl<V: Vector> RingFaces<V> for PlaneFaces<'_, V> {
+    type Face = Plane<V>;
+    #[inline(always)]
+    fn face(&self, index: usize) -> Plane<V> {
+        let [x, y, z, size] = self.rows[index];
+        Plane { normal: Vector3 { x, y, z }, size, scale: self.scale }
+    }
+    fn part(&self, corners: std::ops::Range<usize>) -> Self {
+        PlaneFaces { rows: &self.rows[corners], scale: self.scale }
+    }
+}
+
+/// A polygon of which only normal and area are known; its direction is its unit normal.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane<V> {
+    normal: Vector3<V>,
+    size: V,
+    scale: V,
+}
+
+impl<V: Vector> Face<V> for Plane<V> {
+    #[inline(always)]
+    fn direction(&self, _corner: &Corner<V, Self>) -> Vector3<V> {
+        self.normal
+    }
+    #[inline(always)]
+    fn unit(&self, _corner: &Corner<V, Self>) -> V {
+        V::one()
+    }
+    #[inline(always)]
+    fn unit_and_angle(&self, corner: &Corner<V, Self>) -> (V, V) {
+        let (angle, _) = atan2_and_reciprocal(corner.cross_length(), corner.a.dot(corner.b));
+        // A reflex corner turns against the normal.
+        let reflex = corner.cross.dot(self.normal).lt(V::zero()).and(V::zero().lt(self.size));
+        (V::one(), V::select(reflex, V::constant(std::f64::consts::TAU) - angle, angle))
+    }
+    #[inline(always)]
+    fn area(&self, _corner: &Corner<V, Self>) -> V {
+        // A face may be larger than the ring by any amount.
+        let size = self.size * self.scale;
+        size * size
+    }
+    #[inline(always)]
+    fn sine_product(&self, corner: &Corner<V, Self>) -> V {
+        corner.cross_length()
+    }
+    // Who asks for these says so by `FaceNeeds::Frames`, and gets `Polygon`.
+    fn centroid_squared(&self, _corner: &Corner<V, Self>) -> V {
+        V::constant(f64::NAN)
+    }
+    fn mixed_area(&self, _corner: &Corner<V, Self>) -> V {
+        V::constant(f64::NAN)
+    }
+    fn area_share(&self, _corner: &Corner<V, Self>) -> V {
+        V::constant(f64::NAN)
+    }
+    fn flat_angle(&self, _corner: &Corner<V, Self>) -> V {
+        V::constant(f64::NAN)
+    }
+    fn centre(&self) -> Option<(Vector3<V>, Vector3<V>, V)> {
+        None
+    }
+    #[inline(always)]
+    fn spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        // The normal itself is exact to the last place.
+        if V::Scalar::SINGLE { factor * factor } else { (self.direction(corner) * factor).squared() }
+    }
+    #[inline(always)]
+    fn sine_spread(&self, corner: &Corner<V, Self>, factor: V, by_sine: V) -> V {
+        if V::Scalar::SINGLE { by_sine * by_sine * corner.product } else { self.spread(corner, factor) }
+    }
+    #[inline(always)]
+    fn cone_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        if !V::Scalar::SINGLE {
+            return self.spread(corner, factor);
+        }
+        let clear = (corner.product * V::constant(1.0 / 64.0)).lt(corner.cross_squared);
+        V::select(clear, factor * factor, V::splat(V::Scalar::INFINITY))
+    }
+    #[inline(always)]
+    fn angle_spread(&self, corner: &Corner<V, Self>, factor: V) -> V {
+        if !V::Scalar::SINGLE {
+            return self.spread(corner, factor);
+        }
+        // Of a very sharp angle most digits are lost, and perhaps whether it is reflex.
+        let sharp = corner.cross_squared.lt(corner.product * V::constant(1.0 / 4096.0));
+        let needle = sharp.and(V::zero().lt(corner.a.dot(corner.b)));
+        V::select(needle, V::splat(V::Scalar::INFINITY), factor * factor)
     }
 }
 

@@ -14,6 +14,7 @@ pub(super) struct LaneRows<V> {
     squared: [V; LANE_EDGES],
     normals: [Vector3<V>; LANE_EDGES],
     faces: [Polygon<V>; LANE_EDGES],
+    planes: [[V; 4]; LANE_EDGES],
     vectors: [Vector3<V>; LANE_EDGES + 1],
     numbers: [[V; LANE_EDGES + 1]; 3],
     normal: Vector3<V>,
@@ -40,6 +41,8 @@ pub(super) struct Rows<'a, V> {
     pub normals: &'a mut [Vector3<V>],
     /// Faces, where they are not triangles.
     pub faces: &'a mut [Polygon<V>],
+    /// Or their planes.
+    pub planes: &'a mut [[V; 4]],
     /// For the estimator.
     pub scratch: Scratch<'a, V>,
 }
@@ -64,6 +67,7 @@ impl<V: Vector> LaneRows<V> {
             squared: [V::zero(); LANE_EDGES],
             normals: [Vector3::zero(); LANE_EDGES],
             faces: [no_face(); LANE_EDGES],
+            planes: [[V::zero(); 4]; LANE_EDGES],
             vectors: [Vector3::zero(); LANE_EDGES + 1],
             numbers: [[V::zero(); LANE_EDGES + 1]; 3],
             normal: Vector3::zero(),
@@ -72,16 +76,15 @@ impl<V: Vector> LaneRows<V> {
 
     #[inline(always)]
     pub fn rows(&mut self) -> Rows<'_, V> {
+        // Not by `map`, which is not inlined everywhere.
+        let [a, b, c] = &mut self.numbers;
         Rows {
             edges: &mut self.edges,
             squared: &mut self.squared,
             normals: &mut self.normals,
             faces: &mut self.faces,
-            scratch: Scratch {
-                normal: &mut self.normal,
-                vectors: &mut self.vectors,
-                numbers: self.numbers.each_mut().map(|row| row.as_mut_slice()),
-            },
+            planes: &mut self.planes,
+            scratch: Scratch { normal: &mut self.normal, vectors: &mut self.vectors, numbers: [a, b, c] },
         }
     }
 }
@@ -103,16 +106,14 @@ impl LargeRows {
     }
 
     pub fn rows(&mut self) -> Rows<'_, f64> {
+        let [a, b, c] = &mut self.numbers;
         Rows {
             edges: &mut self.edges,
             squared: &mut self.squared,
             normals: &mut self.normals,
             faces: &mut self.faces,
-            scratch: Scratch {
-                normal: &mut self.normal,
-                vectors: &mut self.vectors,
-                numbers: self.numbers.each_mut().map(|row| row.as_mut_slice()),
-            },
+            planes: &mut [],
+            scratch: Scratch { normal: &mut self.normal, vectors: &mut self.vectors, numbers: [a, b, c] },
         }
     }
 }

@@ -15,7 +15,7 @@ pub use stats::TopologyStats;
 
 pub(crate) use adjacency::{Adjacency, NO_CORNER, has_three_corners};
 pub(crate) use closure::{closure, closure_by_rings};
-pub(crate) use neighbourhood::{MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
+pub(crate) use neighbourhood::{FirstRings, MAX_NEIGHBOURS, MAX_RINGS, Neighbourhood};
 pub(crate) use polygons::Polygons;
 
 use crate::error::{Error, reserved};

@@ -9,6 +9,8 @@ pub(crate) struct Polygons {
     /// Face `f` has the corners `vertices[offsets[f]..offsets[f + 1]]`; none where the face is ignored.
     offsets: Vec<u32>,
     vertices: Vec<u32>,
+    /// The most corners that a face has.
+    most_corners: usize,
     /// Parallel to the flat ring array: the face between this neighbour and the next; [`NO_FACE`](super::NO_FACE) at
     /// the end of an open fan.
     corner_faces: Vec<u32>,
@@ -24,7 +26,7 @@ impl Polygons {
     fn clean<I: Index>(faces: &Faces<'_>, indices: &[I]) -> Result<(Self, usize), Error> {
         let mut offsets = reserved(faces.len() + 1)?;
         let mut vertices: Vec<u32> = reserved(indices.len())?;
-        let mut degenerate = 0;
+        let (mut degenerate, mut most_corners) = (0, 0);
         offsets.push(0);
         for face in 0..faces.len() {
             let corners = &indices[faces.range(face)];
@@ -41,14 +43,32 @@ impl Polygons {
             if vertices.len() - start < 3 {
                 vertices.truncate(start);
             }
+            most_corners = most_corners.max(vertices.len() - start);
             degenerate += (vertices.len() - start != corners.len() || corners.len() < 3) as usize;
             offsets.push(vertices.len() as u32);
         }
-        Ok((Polygons { offsets, vertices, corner_faces: Vec::new() }, degenerate))
+        Ok((Polygons { offsets, vertices, most_corners, corner_faces: Vec::new() }, degenerate))
     }
 
     pub(crate) fn face_count(&self) -> usize {
         self.offsets.len() - 1
+    }
+
+    /// The most corners that a face has.
+    pub(crate) fn most_corners(&self) -> usize {
+        self.most_corners
+    }
+
+    /// Where each face's corners start in [`Polygons::vertices`], and the end of the last.
+    #[inline(always)]
+    pub(crate) fn offsets(&self) -> &[u32] {
+        &self.offsets
+    }
+
+    /// The corners of all faces.
+    #[inline(always)]
+    pub(crate) fn vertices(&self) -> &[u32] {
+        &self.vertices
     }
 
     /// The corners of a face, none where it is ignored.
@@ -60,6 +80,12 @@ impl Polygons {
     #[inline(always)]
     pub(crate) fn corner_face(&self, entry: usize) -> u32 {
         self.corner_faces[entry]
+    }
+
+    /// The face of every entry of the flat ring array.
+    #[inline(always)]
+    pub(crate) fn all_corner_faces(&self) -> &[u32] {
+        &self.corner_faces
     }
 
     /// The faces of a stretch of the flat ring array.

@@ -5,6 +5,7 @@
 //! leaves it is checked once (alignment, strides, index ranges) and safe from then on. What the library asks of the system
 //! itself (huge pages, threads, the number of cores) is here for the same reason.
 
+mod batch;
 mod bytes;
 mod cores;
 mod faces;
@@ -14,10 +15,12 @@ mod points;
 mod polyline;
 mod ring_table;
 mod rings;
+mod rows;
 mod scalars;
 mod slots;
 mod threads;
 
+pub(crate) use batch::{Batch, Block, Group, Kept, Lanes};
 pub use bytes::Bytes;
 pub(crate) use cores::core_count;
 pub use faces::{Faces, IndexArray, Indices};
@@ -29,7 +32,8 @@ pub(crate) use points::{Coordinate, PointArray, StridedPoints};
 pub(crate) use polyline::PolylineArray;
 pub use polyline::PolylinePoints;
 pub(crate) use ring_table::{RingPart, RingTable};
-pub(crate) use rings::{Batch, MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
+pub(crate) use rings::{MAX_LANE_CORNERS, RingClass, Rings, WINDOW};
+pub(crate) use rows::{gather_rows, scatter_rows};
 pub use scalars::Scalars;
 pub(crate) use slots::{BLOCK, Put, SLOTS, Slots, SlotsPart};
 pub(crate) use threads::{for_each_part, is_quiet, set_quiet, with_threads};

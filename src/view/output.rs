@@ -4,7 +4,7 @@ use super::checked_stride;
 use crate::error::Error;
 use crate::simd::{MAX_LANES, Real, Vector};
 use std::marker::PhantomData;
-use std::sync::atomic::{AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// A borrowed array to write, of `N` scalars an element, `f32` or `f64`, at any byte stride.
 ///
@@ -119,6 +119,16 @@ impl<'a, const N: usize> Output<'a, N> {
     /// Writes the elements `vertices`, in the lanes whose bit is set in `lanes`, in whatever precision a kernel works in.
     #[inline(always)]
     pub(crate) fn write_lanes<V: Vector>(&self, vertices: &[u32], lanes: u32, values: &[V; N]) {
+        if N == 3 && V::Scalar::SINGLE != self.double && vertices.len() == V::LANES && lanes == V::ALL {
+            let mut indices = [0u32; MAX_LANES];
+            indices[..V::LANES].copy_from_slice(&vertices[..V::LANES]);
+            let most = indices[..V::LANES].iter().fold(0, |most, &index| most.max(index)) as usize;
+            assert!(most < self.count, "output {most} of {}", self.count);
+            let rows = [values[0], values[1], values[2], values[2]];
+            // SAFETY: all are in range, so inside the borrowed memory, which is ours to write; scalars are the vector's.
+            unsafe { V::scatter4::<false>(rows, self.base, self.stride, &indices) };
+            return;
+        }
         let mut rows = [[V::Scalar::ZERO; MAX_LANES]; N];
         for axis in 0..N {
             rows[axis] = values[axis].to_lanes();
@@ -186,19 +196,19 @@ impl<'a, const N: usize> Output<'a, N> {
 
     #[inline(always)]
     fn write_single(&self, index: usize, value: [f32; N]) {
-        let element = self.element(index).cast::<u32>();
+        let element = self.element(index).cast::<f32>();
         for (axis, x) in value.iter().enumerate() {
             // SAFETY: `N` aligned f32 start at the element, in memory that is ours to write.
-            unsafe { AtomicU32::from_ptr(element.add(axis)) }.store(x.to_bits(), Relaxed);
+            unsafe { x.store_relaxed(element.add(axis)) };
         }
     }
 
     #[inline(always)]
     fn write_double(&self, index: usize, value: [f64; N]) {
-        let element = self.element(index).cast::<u64>();
+        let element = self.element(index).cast::<f64>();
         for (axis, x) in value.iter().enumerate() {
             // SAFETY: `N` aligned f64 start at the element, in memory that is ours to write.
-            unsafe { store_double(element.add(axis), x.to_bits()) };
+            unsafe { x.store_relaxed(element.add(axis)) };
         }
     }
 }
@@ -220,24 +230,6 @@ macro_rules! from_slices {
     )*};
 }
 from_slices! { f32, false; f64, true; }
-
-/// Stores the bits of an `f64`.
-///
-/// # Safety
-/// `place` is a writable `f64`, aligned as one.
-#[inline(always)]
-unsafe fn store_double(place: *mut u64, bits: u64) {
-    // SAFETY: the caller's word; where an f64 is less aligned than the atomic of its size, its halves are stored.
-    unsafe {
-        if align_of::<f64>() == align_of::<AtomicU64>() {
-            AtomicU64::from_ptr(place).store(bits, Relaxed);
-        } else {
-            let halves: [u32; 2] = std::mem::transmute(bits.to_ne_bytes());
-            AtomicU32::from_ptr(place.cast()).store(halves[0], Relaxed);
-            AtomicU32::from_ptr(place.cast::<u32>().add(1)).store(halves[1], Relaxed);
-        }
-    }
-}
 
 /// A borrowed array of `#V` status bytes to write, at any byte stride.
 #[derive(Debug)]

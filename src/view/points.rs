@@ -1,6 +1,8 @@
 //! Positions: `#V × 3` scalars at any byte stride.
 
+use super::batch::KnownVertices;
 use super::checked_stride;
+use super::rings::Rings;
 use crate::error::Error;
 use crate::simd::{MAX_LANES, Real, Vector, Vector3, prefetch};
 use glam::{DVec3, Vec3};
@@ -140,16 +142,6 @@ impl<'a, S: Coordinate, const N: usize> StridedPoints<'a, S, N> {
         self.count
     }
 
-    /// The first byte, for [`Vector::gather`] with [`StridedPoints::stride`].
-    pub(crate) fn base(&self) -> *const u8 {
-        self.base
-    }
-
-    /// The bytes from a point to the next.
-    pub(crate) fn stride(&self) -> usize {
-        self.stride
-    }
-
     /// Fetches a point into the cache.
     #[inline(always)]
     pub(crate) fn prefetch(&self, index: usize) {
@@ -173,6 +165,13 @@ impl<'a, S: Coordinate, const N: usize> StridedPoints<'a, S, N> {
     pub(super) fn check_finite(&self) -> Result<(), Error> {
         // `0 × x` is 0 for a finite x and NaN otherwise; the sum of a block keeps that, without a branch a point.
         const BLOCK: usize = 1024;
+        if self.is_packed() && self.count > 0 {
+            // SAFETY: packed points are so many scalars in a row, in the borrowed memory.
+            let scalars = unsafe { std::slice::from_raw_parts(self.base.cast::<S>(), self.count * N) };
+            if scalars.chunks(N * BLOCK).all(all_finite) {
+                return Ok(());
+            }
+        }
         for start in (0..self.count).step_by(BLOCK) {
             let block = start..self.count.min(start + BLOCK);
             let mut sum = [S::ZERO; N];
@@ -215,18 +214,47 @@ impl<S: Coordinate> StridedPoints<'_, S> {
     /// Where one of them is no point.
     #[inline(always)]
     pub(crate) fn lanes<V: Vector>(&self, indices: &[u32; MAX_LANES]) -> Vector3<V> {
-        if TypeId::of::<V::Scalar>() != TypeId::of::<S>() {
-            return gather_converted(self, indices);
-        }
         let most = indices[..V::LANES].iter().fold(0, |most, &index| most.max(index)) as usize;
         assert!(most < self.count, "point {most} of {}", self.count);
-        // SAFETY: all are points, and of the vector's scalar; where four scalars are loaded, points are packed and none of
-        // these is the last.
+        // SAFETY: all are points; where four scalars are loaded, points are packed and none of these is the last.
         unsafe {
             if self.is_packed() && most + 1 < self.count {
-                V::gather::<true>(self.base, self.stride, indices)
+                self.gather::<true, V>(indices)
             } else {
-                V::gather::<false>(self.base, self.stride, indices)
+                self.gather::<false, V>(indices)
+            }
+        }
+    }
+
+    /// As [`StridedPoints::lanes`], of vertices that have been checked against a table of rings.
+    ///
+    /// # Panics
+    /// Where points are fewer than the vertices of the table.
+    #[inline(always)]
+    pub(super) fn known_lanes<V: Vector>(&self, rings: &Rings, vertices: KnownVertices) -> Vector3<V> {
+        assert!(self.count >= rings.vertex_count());
+        // SAFETY: all are vertices other than the last, so there is a point for each, and one behind it.
+        unsafe {
+            if self.is_packed() {
+                self.gather::<true, V>(vertices.indices())
+            } else {
+                self.gather::<false, V>(vertices.indices())
+            }
+        }
+    }
+
+    /// # Safety
+    /// As [`Vector::gather`], for the points' own scalar.
+    #[inline(always)]
+    unsafe fn gather<const WIDE: bool, V: Vector>(&self, indices: &[u32; MAX_LANES]) -> Vector3<V> {
+        // SAFETY: handed on; each gather is for the points' scalar.
+        unsafe {
+            if TypeId::of::<V::Scalar>() == TypeId::of::<S>() {
+                V::gather::<WIDE>(self.base, self.stride, indices)
+            } else if TypeId::of::<S>() == TypeId::of::<f32>() {
+                V::gather_single::<WIDE>(self.base, self.stride, indices)
+            } else {
+                gather_converted(self, indices)
             }
         }
     }
@@ -234,7 +262,7 @@ impl<S: Coordinate> StridedPoints<'_, S> {
 
 /// Points of any scalar type, loaded as lanes of another: the mixed case, one scalar at a time.
 #[inline(always)]
-pub(crate) fn gather_converted<V: Vector, S: Coordinate>(
+fn gather_converted<V: Vector, S: Coordinate>(
     points: &StridedPoints<'_, S>,
     indices: &[u32; MAX_LANES],
 ) -> Vector3<V> {
@@ -275,3 +303,19 @@ macro_rules! from_slices {
 }
 from_slices!(F32, f32, Vec3);
 from_slices!(F64, f64, DVec3);
+
+/// Whether all are finite; in many lanes, so that no sum waits for the one before.
+fn all_finite<S: Coordinate>(scalars: &[S]) -> bool {
+    const LANES: usize = 32;
+    let mut sums = [S::ZERO; LANES];
+    let (rows, rest) = scalars.as_chunks::<LANES>();
+    for row in rows {
+        for (sum, &x) in sums.iter_mut().zip(row) {
+            *sum = *sum + x * S::ZERO;
+        }
+    }
+    for (sum, &x) in sums.iter_mut().zip(rest) {
+        *sum = *sum + x * S::ZERO;
+    }
+    sums.iter().all(|sum| *sum == S::ZERO)
+}

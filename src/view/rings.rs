@@ -1,14 +1,10 @@
-//! The one-rings of all vertices in one flat array, sorted for the sweep, and the loader that turns a block of them into
-//! lanes of edges.
+//! The one-rings of all vertices in one flat array, sorted for the sweep.
 //!
-//! The table is checked when it is made and never changes. That is what lets [`Rings::load_edges`] read positions
-//! without a bounds check per neighbour, and packed ones with loads that run one scalar past the third coordinate: a
-//! vertex gets a [`RingClass`] for lanes only if its ring lies inside the table and holds no index that a wide load could
-//! carry past the caller's buffer (that is, not the last vertex's).
+//! The table is checked when it is made and never changes: a vertex gets a [`RingClass`] for lanes only if its ring lies inside
+//! the table and holds no index that a wide load could carry past the caller's buffer (that is, not the last vertex's).
 
-use super::points::{Coordinate, StridedPoints, gather_converted};
-use crate::simd::{MAX_LANES, Vector, Vector3};
-use std::any::TypeId;
+use super::points::{Coordinate, StridedPoints};
+use crate::simd::Vector3;
 
 /// Rings of more corners than this go vertex by vertex.
 pub(crate) const MAX_LANE_CORNERS: usize = 16;
@@ -32,47 +28,6 @@ pub(crate) enum RingClass {
     Alone,
 }
 
-/// Up to [`WINDOW`] vertices, sorted by class.
-pub(crate) struct Batch {
-    vertices: [u32; WINDOW],
-    slices: [Slice; CLASSES],
-    count: usize,
-    slice_count: usize,
-    scattered: bool,
-}
-
-impl Batch {
-    pub(crate) fn new() -> Self {
-        Batch {
-            vertices: [0; WINDOW],
-            slices: [Slice { first: 0, class: 0 }; CLASSES],
-            count: 0,
-            slice_count: 0,
-            scattered: false,
-        }
-    }
-
-    /// How many classes occur.
-    #[inline(always)]
-    pub(crate) fn len(&self) -> usize {
-        self.slice_count
-    }
-
-    /// Whether the neighbours lie all over the mesh, so that each is a cache miss.
-    #[inline(always)]
-    pub(crate) fn is_scattered(&self) -> bool {
-        self.scattered
-    }
-
-    /// A class and its vertices.
-    #[inline(always)]
-    pub(crate) fn get(&self, index: usize) -> (RingClass, &[u32]) {
-        let slices = &self.slices[..self.slice_count];
-        let end = slices.get(index + 1).map_or(self.count, |next| next.first as usize);
-        (RingClass::from_code(slices[index].class), &self.vertices[slices[index].first as usize..end])
-    }
-}
-
 pub(super) const CLASSES: usize = 2 * MAX_LANE_CORNERS + 2;
 const ALONE: u8 = CLASSES as u8 - 1;
 
@@ -89,7 +44,7 @@ impl RingClass {
         }
     }
 
-    fn from_code(code: u8) -> Self {
+    pub(super) fn from_code(code: u8) -> Self {
         match code {
             0 => RingClass::Isolated,
             ALONE => RingClass::Alone,
@@ -102,8 +57,8 @@ impl RingClass {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slice {
     /// The first, counted from the window's start.
-    first: u16,
-    class: u8,
+    pub(super) first: u16,
+    pub(super) class: u8,
 }
 
 /// Flat one-rings: vertex `v` has the neighbours `neighbours[offsets[v]..offsets[v + 1]]`, fan after fan, each
@@ -197,22 +152,26 @@ impl Rings {
         self.window_slices.len() - 1
     }
 
-    /// Puts the vertices of a window into `batch`.
-    pub(crate) fn fill_window(&self, window: usize, batch: &mut Batch) {
+    /// Where the rings of a window stand in the flat array.
+    pub(crate) fn window_entries(&self, window: usize) -> std::ops::Range<usize> {
         let start = window * WINDOW;
-        let codes = &self.classes[start..self.classes.len().min(start + WINDOW)];
-        batch.count = codes.len();
-        for (vertex, offset) in batch.vertices.iter_mut().zip(&self.order[start..][..codes.len()]) {
-            *vertex = start as u32 + *offset as u32;
-        }
-        let slices = &self.slices[self.window_slices[window] as usize..self.window_slices[window + 1] as usize];
-        batch.slice_count = slices.len();
-        batch.slices[..slices.len()].copy_from_slice(slices);
-        batch.scattered = self.is_scattered(&batch.vertices[..batch.count]);
+        let end = self.vertex_count().min(start + WINDOW);
+        self.offsets[start] as usize..self.offsets[end] as usize
+    }
+
+    /// The vertices of a window by class, counted from the window's start.
+    pub(super) fn window_order(&self, window: usize) -> &[u16] {
+        let start = window * WINDOW;
+        &self.order[start..self.order.len().min(start + WINDOW)]
+    }
+
+    /// The classes of a window.
+    pub(super) fn window_slices(&self, window: usize) -> &[Slice] {
+        &self.slices[self.window_slices[window] as usize..self.window_slices[window + 1] as usize]
     }
 
     /// Whether the rings of vertices that follow each other start far from each other, in a sample.
-    fn is_scattered(&self, vertices: &[u32]) -> bool {
+    pub(super) fn is_scattered(&self, vertices: &[u32]) -> bool {
         const SAMPLE: usize = 16;
         const FAR: u32 = 4096;
         let step = vertices.len() / SAMPLE;
@@ -222,143 +181,6 @@ impl Rings {
         let first = |vertex: u32| self.ring(vertex as usize).first().copied().unwrap_or(vertex);
         let far = |pair: &[u32]| first(pair[0]).abs_diff(first(pair[1])) > FAR;
         vertices.chunks_exact(step).filter(|chunk| far(&chunk[..2])).count() > SAMPLE / 2
-    }
-
-    /// Fetches the points of the neighbours of some vertices of a class of `corners` corners into the cache.
-    #[inline(always)]
-    pub(crate) fn prefetch<S: Coordinate>(&self, points: &StridedPoints<'_, S>, vertices: &[u32], corners: usize) {
-        for &vertex in vertices {
-            for &neighbour in &self.ring(vertex as usize)[..corners] {
-                points.prefetch(neighbour as usize);
-            }
-        }
-    }
-
-    /// As [`Rings::fill_window`] for at most [`WINDOW`] vertices of the caller's choice.
-    ///
-    /// # Panics
-    /// Where one of them is no vertex, or there are more.
-    pub(crate) fn fill_list(&self, list: &[u32], batch: &mut Batch) {
-        let mut codes = [0u8; WINDOW];
-        let codes = &mut codes[..list.len()];
-        for (code, &vertex) in codes.iter_mut().zip(list) {
-            *code = self.classes[vertex as usize];
-        }
-        let Batch { vertices, slices, count, slice_count, .. } = batch;
-        (*count, *slice_count) = (list.len(), 0);
-        bucket(
-            codes,
-            |place, index| vertices[place] = list[index],
-            |slice| {
-                slices[*slice_count] = slice;
-                *slice_count += 1;
-            },
-        );
-        batch.scattered = self.is_scattered(list);
-    }
-
-    /// Loads the edges from up to `V::LANES` vertices of one class to their neighbours, lane by lane.
-    ///
-    /// `edges[j]` becomes the vectors to the `j`-th neighbours, `j = 0 … corners`; in a closed fan the last repeats the
-    /// first. The lanes beyond `vertices` repeat its first.
-    ///
-    /// # Panics
-    /// Where a vertex is not of the class `Lanes { corners, closed }`, or `points` are fewer than the vertices.
-    #[inline(always)]
-    pub(crate) fn load_edges<V: Vector, S: Coordinate>(
-        &self,
-        points: &StridedPoints<'_, S>,
-        vertices: &[u32],
-        corners: usize,
-        closed: bool,
-        edges: &mut [Vector3<V>],
-    ) {
-        self.load::<true, V, S>(points, vertices, corners, closed, edges);
-    }
-
-    /// As [`Rings::load_edges`], but loads what `values` hold for the neighbours, and subtracts nothing.
-    ///
-    /// # Panics
-    /// As [`Rings::load_edges`].
-    #[inline(always)]
-    pub(crate) fn load_values<V: Vector, S: Coordinate>(
-        &self,
-        values: &StridedPoints<'_, S>,
-        vertices: &[u32],
-        corners: usize,
-        closed: bool,
-        loaded: &mut [Vector3<V>],
-    ) {
-        self.load::<false, V, S>(values, vertices, corners, closed, loaded);
-    }
-
-    #[inline(always)]
-    fn load<const RELATIVE: bool, V: Vector, S: Coordinate>(
-        &self,
-        points: &StridedPoints<'_, S>,
-        vertices: &[u32],
-        corners: usize,
-        closed: bool,
-        edges: &mut [Vector3<V>],
-    ) {
-        assert!(points.len() >= self.vertex_count() && !vertices.is_empty() && vertices.len() <= V::LANES);
-        let class = RingClass::Lanes { corners, closed }.code();
-        let edges = &mut edges[..corners + 1];
-        let mut centres = [vertices[0]; MAX_LANES];
-        // Lane by lane: a copy of unknown length is a call, which forgets what stands in vector registers.
-        #[expect(clippy::needless_range_loop)]
-        for lane in 0..V::LANES {
-            if let Some(&vertex) = vertices.get(lane) {
-                centres[lane] = vertex;
-            }
-        }
-        let mut starts = [0u32; MAX_LANES];
-        let mut differing = 0;
-        for lane in 0..V::LANES {
-            let vertex = centres[lane] as usize;
-            differing |= self.classes[vertex] ^ class;
-            // SAFETY: `from_table` has seen one offset more than there are classes, and this vertex has a class.
-            starts[lane] = unsafe { *self.offsets.get_unchecked(vertex) };
-        }
-        assert_eq!(differing, 0, "a vertex of another class");
-        let neighbours = &mut edges[..corners + !closed as usize];
-        // SAFETY: each of these vertices was seen by `RingPart::seal` to be of this class: the vertex itself and its neighbours, as
-        // many as there are edges, are inside the tables and are vertices other than the last.
-        unsafe {
-            if points.is_packed() {
-                self.load_neighbours::<RELATIVE, true, V, S>(points, &centres, &starts, neighbours);
-            } else {
-                self.load_neighbours::<RELATIVE, false, V, S>(points, &centres, &starts, neighbours);
-            }
-        }
-        if closed {
-            edges[corners] = edges[0];
-        }
-    }
-
-    /// # Safety
-    /// In each lane, `centres` and the entries of the ring table from `starts` on, one for each edge, are points other
-    /// than the last; if `WIDE`, points are packed.
-    #[inline(always)]
-    unsafe fn load_neighbours<const RELATIVE: bool, const WIDE: bool, V: Vector, S: Coordinate>(
-        &self,
-        points: &StridedPoints<'_, S>,
-        centres: &[u32; MAX_LANES],
-        starts: &[u32; MAX_LANES],
-        edges: &mut [Vector3<V>],
-    ) {
-        // SAFETY: handed on.
-        unsafe {
-            let centre = gather::<WIDE, V, S>(points, centres);
-            for (slot, edge) in edges.iter_mut().enumerate() {
-                let mut indices = [0u32; MAX_LANES];
-                for lane in 0..V::LANES {
-                    indices[lane] = *self.neighbours.get_unchecked(starts[lane] as usize + slot);
-                }
-                let point = gather::<WIDE, V, S>(points, &indices);
-                *edge = if RELATIVE { point - centre } else { point };
-            }
-        }
     }
 
     /// The vectors from a vertex to `ring`, each point multiplied by `factor` first, in `f64`.
@@ -373,21 +195,6 @@ impl Rings {
             let edge = points.get(neighbour as usize) * factor - centre;
             Vector3 { x: edge.x, y: edge.y, z: edge.z }
         })
-    }
-}
-
-/// # Safety
-/// As [`Vector::gather`], for the points' scalar.
-#[inline(always)]
-unsafe fn gather<const WIDE: bool, V: Vector, S: Coordinate>(
-    points: &StridedPoints<'_, S>,
-    indices: &[u32; MAX_LANES],
-) -> Vector3<V> {
-    if TypeId::of::<V::Scalar>() == TypeId::of::<S>() {
-        // SAFETY: handed on; the lanes are of the points' own scalar.
-        unsafe { V::gather::<WIDE>(points.base(), points.stride(), indices) }
-    } else {
-        gather_converted(points, indices)
     }
 }
 

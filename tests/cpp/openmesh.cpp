@@ -207,6 +207,8 @@ void deleted() {
     um::halfedge_normals(copy);
     for (const auto vertex : copy.vertices()) found.push_back({copy.property(properties.k1, vertex), copy.property(properties.k2, vertex), 0});
     for (const auto halfedge : copy.halfedges()) {
+      // Of a halfedge without a face OpenMesh does not initialise the normal.
+      if (copy.is_boundary(halfedge)) continue;
       const auto &normal = copy.normal(halfedge);
       found.push_back({static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])});
     }
